@@ -1,4 +1,4 @@
-#include "candela/descriptor.h"
+#include "candela/plugin/descriptor.h"
 
 #include <array>
 #include <optional>

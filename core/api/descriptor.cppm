@@ -1,6 +1,6 @@
 module;
 
-#include "candela/descriptor.h"
+#include "candela/plugin/descriptor.h"
 
 export module candela.descriptor;
 

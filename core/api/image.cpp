@@ -1,4 +1,4 @@
-#include "candela/image.h"
+#include "candela/image_format.h"
 
 #include <span>
 #include <stdexcept>

@@ -1,6 +1,6 @@
 module;
 
-#include "candela/image.h"
+#include "candela/image_format.h"
 
 export module candela.image;
 

@@ -1,4 +1,4 @@
-#include "candela/params.h"
+#include "candela/plugin/params.h"
 
 #include <array>
 #include <cstddef>

@@ -1,6 +1,6 @@
 module;
 
-#include "candela/params.h"
+#include "candela/plugin/params.h"
 
 export module candela.params;
 

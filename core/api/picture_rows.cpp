@@ -1,4 +1,4 @@
-#include "candela/picture_rows.h"
+#include "candela/scanline_image.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,6 +1,6 @@
 module;
 
-#include "candela/picture_rows.h"
+#include "candela/scanline_image.h"
 
 export module candela.picture_rows;
 

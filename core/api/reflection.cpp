@@ -1,4 +1,4 @@
-#include "candela/reflection.h"
+#include "candela/reflection_model.h"
 
 namespace candela {
 

@@ -1,6 +1,6 @@
 module;
 
-#include "candela/reflection.h"
+#include "candela/reflection_model.h"
 
 export module candela.reflection;
 

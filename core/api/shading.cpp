@@ -1,4 +1,4 @@
-#include "candela/shading.h"
+#include "candela/shading_model.h"
 
 #include <cstddef>
 #include <cstdint>

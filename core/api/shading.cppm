@@ -1,6 +1,6 @@
 module;
 
-#include "candela/shading.h"
+#include "candela/shading_model.h"
 
 export module candela.shading;
 

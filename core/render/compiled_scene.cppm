@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <functional>
@@ -47,10 +47,10 @@ using Progress = std::function<void(std::size_t done, std::size_t all)>;
 /// reported before; warns about meshes that are not closed. `threads`: as in RenderOptions. `progress` is
 /// called by one thread at a time: each object counts when it has its triangles (a large one in parts), when
 /// it has been checked and when it has its normals.
-CANDELA_API std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry,
-                                                 Diagnostics& diagnostics, int threads = 0,
-                                                 const Progress& progress = {});
-CANDELA_API std::optional<CompiledScene> compile(const Scene& scene, Registry& registry,
-                                                 Diagnostics& diagnostics, int threads = 0);
+CANDELA_EXPORT std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry,
+                                                    Diagnostics& diagnostics, int threads = 0,
+                                                    const Progress& progress = {});
+CANDELA_EXPORT std::optional<CompiledScene> compile(const Scene& scene, Registry& registry,
+                                                    Diagnostics& diagnostics, int threads = 0);
 
 }  // namespace candela

@@ -1,7 +1,7 @@
 // The frames of an animated scene, compiled one after the other.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <functional>
 #include <memory>
@@ -19,7 +19,7 @@ export namespace candela {
 /// Compiles one frame after the other, like compile(), and carries over to the next whatever has not changed:
 /// triangles, lights, models, the environment. Constraints are checked again only if something has moved. One
 /// thread at a time.
-class CANDELA_API FrameCompiler {
+class CANDELA_EXPORT FrameCompiler {
   public:
     explicit FrameCompiler(Registry& registry);
     FrameCompiler(FrameCompiler&&) noexcept;
@@ -38,7 +38,7 @@ class CANDELA_API FrameCompiler {
 
 /// Validates frames like compile(), and reports every problem once: with the number of the first frame that
 /// has it, unless all frames do, and with the track that causes it. `progress` counts frames.
-CANDELA_API void check_frames(SceneFrames& frames, std::span<const int> numbers, Registry& registry,
-                              Diagnostics& diagnostics, int threads = 0, const Progress& progress = {});
+CANDELA_EXPORT void check_frames(SceneFrames& frames, std::span<const int> numbers, Registry& registry,
+                                 Diagnostics& diagnostics, int threads = 0, const Progress& progress = {});
 
 }  // namespace candela

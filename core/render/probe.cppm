@@ -1,7 +1,7 @@
 // One pixel of a picture: what is visible there, and how its intensity is computed.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <array>
 #include <cstddef>
@@ -41,6 +41,6 @@ struct PixelProbe {
 /// Inspects pixel (x, y), counted from the top left corner, of the picture that render() makes of the scene;
 /// `intensity` and `bytes` are those of that picture. Throws Error like render(), and std::out_of_range if
 /// the picture has no such pixel.
-CANDELA_API PixelProbe probe(const CompiledScene& scene, int x, int y);
+CANDELA_EXPORT PixelProbe probe(const CompiledScene& scene, int x, int y);
 
 }  // namespace candela

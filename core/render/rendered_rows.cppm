@@ -1,7 +1,7 @@
 // A picture that need not fit into memory.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstdint>
 #include <optional>
@@ -20,7 +20,7 @@ export namespace candela {
 
 /// Renders rows of a picture on request, a band at a time: the same pixels as candela::render(), in memory
 /// for two bands of about 64 MB. One thread at a time.
-class CANDELA_API RenderedRows final : public PictureRows {
+class CANDELA_EXPORT RenderedRows final : public PictureRows {
   public:
     /// The scene must outlive this. `options.progress` counts rows.
     RenderedRows(const CompiledScene& scene, PixelType pixels, RowRange rows, RenderOptions options);

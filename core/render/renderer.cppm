@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <functional>
@@ -38,11 +38,11 @@ struct RenderStatistics {
 };
 
 /// Renders one picture: the same bytes for any number of threads and any tile size. Throws Error.
-CANDELA_API RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
+CANDELA_EXPORT RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
 
 /// Renders a sequence of pictures, each identical to that of candela::render(), and reuses what it can from
 /// one to the next. One thread at a time.
-class CANDELA_API Renderer {
+class CANDELA_EXPORT Renderer {
   public:
     enum class Keep {
         memory,     // the arrays
@@ -69,7 +69,7 @@ class CANDELA_API Renderer {
 /// Why a picture shows no light on any object, and what to do, as the end of the sentence "nothing in the
 /// picture is lit: …". Empty if something is lit, or if the scene has no objects or no lights, which was
 /// reported when it was read.
-CANDELA_API std::string why_black(const CompiledScene& scene, const Film& film,
-                                  const RenderStatistics& statistics);
+CANDELA_EXPORT std::string why_black(const CompiledScene& scene, const Film& film,
+                                     const RenderStatistics& statistics);
 
 }  // namespace candela

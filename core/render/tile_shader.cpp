@@ -1,7 +1,7 @@
 // One tile, from fragments to pixels.
 module;
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@ from pathlib import Path
 
 # The title, the folders and the purpose of each group of pages.
 GROUPS = (
-    ("Interfaces", ("core/api/include",),
+    ("Interfaces", ("core/include",),
      "The interfaces of plugins, and the data that crosses the boundary. Programs import them as modules."),
     ("Plugin SDK", ("sdk/include",), "The headers for writing plugins."),
     ("For exporters", ("sdk/target/include",), "Code shared by targets."),
@@ -31,7 +31,7 @@ INHERIT_DOCS = NO
 MACRO_EXPANSION = YES
 EXPAND_ONLY_PREDEF = YES
 SEARCH_INCLUDES = NO
-PREDEFINED = CANDELA_API= CANDELA_KERNEL_INLINE=inline CANDELA_BATCH_LOOP= KERNEL=
+PREDEFINED = CANDELA_EXPORT= CANDELA_KERNEL_INLINE=inline CANDELA_BATCH_LOOP= KERNEL=
 QUIET = YES
 WARN_IF_UNDOCUMENTED = NO
 WARN_AS_ERROR = FAIL_ON_WARNINGS

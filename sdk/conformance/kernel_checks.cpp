@@ -142,7 +142,7 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
     const std::filesystem::path include = sdk_include_directory();
     if (include.empty()) SKIP("Candela's headers are not installed with the kit");
     std::string prelude;
-    for (const char* const part : {"candela/table.glsl", "candela/prelude.kernel"}) {
+    for (const char* const part : {"candela/kernel/table.glsl", "candela/kernel/prelude.kernel"}) {
         std::ifstream file(include / part);
         prelude.append(std::istreambuf_iterator<char>(file), {});
     }

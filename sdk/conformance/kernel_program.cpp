@@ -152,7 +152,7 @@ std::string source(const std::string& kernel_text) {
                   "{}; }}();",
                   parameters, members_from_parameters(), constants);
     const std::string text = fmt::format(
-        "#include \"candela/kernel.h\"\n"
+        "#include \"candela/kernel/kernel.h\"\n"
         "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"
         "namespace candela::kernel {{\n#line 1 \"{}\"\n{}\n#line 1 \"{}\"\n}}\n"
         "using namespace candela::kernel;\n"
@@ -218,7 +218,7 @@ fs::path sdk_include_directory() {
     std::error_code problem;
     for (fs::path above = fs::read_symlink("/proc/self/exe", problem).parent_path();
          above.has_relative_path(); above = above.parent_path()) {
-        if (fs::exists(above / "include/candela/kernel.h", problem)) return above / "include";
+        if (fs::exists(above / "include/candela/kernel/kernel.h", problem)) return above / "include";
     }
     return {};
 }

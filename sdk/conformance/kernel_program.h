@@ -10,7 +10,7 @@
 
 #include "batch.h"
 
-/// The folder that contains candela/kernel.h, above the kit's own; empty if there is none.
+/// The folder that contains candela/kernel/kernel.h, above the kit's own; empty if there is none.
 std::filesystem::path sdk_include_directory();
 
 /// "cel.kernel": the name of the plugin's kernel text in messages, which count its lines.

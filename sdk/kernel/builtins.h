@@ -1,5 +1,5 @@
 // The built-in parts of the kernel language: types, their constructors, and the functions of
-// candela/kernel.h.
+// candela/kernel/kernel.h.
 #pragma once
 
 #include <map>

@@ -1,5 +1,5 @@
 // Checks what the documentation shows.
-#include "candela/abi.h"
+#include "candela/plugin/abi.h"
 
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>

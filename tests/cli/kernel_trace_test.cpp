@@ -21,11 +21,11 @@ std::vector<std::string> notes_of(const std::string& kernel, const std::string& 
     const fs::path folder = scratch_directory();
     const fs::path source = folder / "traced.cpp";
     write_file(source, std::string(kernel_trace_prelude()) +
-                           "#include \"candela/kernel.h\"\nnamespace candela::kernel {\n" + traced +
+                           "#include \"candela/kernel/kernel.h\"\nnamespace candela::kernel {\n" + traced +
                            "\n}\nusing namespace candela::kernel;\nint main() { " + call + "; }\n");
     const fs::path program = folder / "traced";
     const CommandResult compiled = run_program({CANDELA_TEST_COMPILER, "-std=c++20", "-w", "-I",
-                                                std::string(CANDELA_TEST_SOURCE) + "/core/api/include",
+                                                std::string(CANDELA_TEST_SOURCE) + "/core/include",
                                                 source.string(), "-o", program.string()});
     INFO(traced);
     INFO(compiled.err);

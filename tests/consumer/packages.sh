@@ -126,7 +126,7 @@ quiet package_manager -i "${development[@]}"
 bash "$here/templates.sh" --installed "$root/usr" "$scratch/templates" "$cmake" "$cxx" light
 say "a program that embeds Candela, with only the installed packages"
 bash "$here/embedding.sh" "$root/usr" "$scratch/embedding" "$cmake" "$cxx"
-interface=$(sed -n 's/^#define CANDELA_INTERFACE_VERSION //p' "$root/usr/include/candela/abi.h")
+interface=$(sed -n 's/^#define CANDELA_INTERFACE_VERSION //p' "$root/usr/include/candela/plugin/abi.h")
 [ "$(dpkg-deb -f "${runtime[0]}" Provides)" = "candela-plugin-interface-$interface" ] || fail "the interface is not provided"
 
 say "found through /lib, it is the same package"

@@ -27,7 +27,7 @@ struct Loudness {
 enum class Pitch { low, high };
 
 /// A horn. `Horn` < all others.
-class CANDELA_API Horn : public Instance {
+class CANDELA_EXPORT Horn : public Instance {
   public:
     ~Horn() override;
     /// Blows for `seconds`.
@@ -56,7 +56,7 @@ import candela.horn;
 export namespace candela {
 
 /// How many play, <count> of them.
-CANDELA_API int players(const std::vector<Horn*>& horns);
+CANDELA_EXPORT int players(const std::vector<Horn*>& horns);
 
 }  // namespace candela
 """
@@ -65,7 +65,7 @@ CANDELA_API int players(const std::vector<Horn*>& horns);
 class CppReference(unittest.TestCase):
     def reference(self):
         root = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        for path, text in (("core/api/include/candela/horn.h", HEADER), ("core/base/orchestra/orchestra.cppm", MODULE)):
+        for path, text in (("core/include/candela/horn.h", HEADER), ("core/base/orchestra/orchestra.cppm", MODULE)):
             (root / path).parent.mkdir(parents=True)
             (root / path).write_text(text)
         navigation = Reference(root, root / "pages", root / "scratch").write()

@@ -21,9 +21,9 @@ HEADERS_ALONE = {"abi.h", "api.h", "batch.h", "instances.h", "kernel.h", "kernel
 # A declaration at the beginning of a line, where clang-format puts the members of a namespace: a type, an alias, a function,
 # a constant.
 DECLARATION = re.compile(
-    r"^(?:template <.*> )?(?:enum class |struct |class )(?:CANDELA_API )?(?P<type>\w+)[^;\n]*\{(?:.*\};)?$"
+    r"^(?:template <.*> )?(?:enum class |struct |class )(?:CANDELA_EXPORT )?(?P<type>\w+)[^;\n]*\{(?:.*\};)?$"
     r"|^using (?P<alias>\w+) = .*;$"
-    r"|^(?:CANDELA_API |inline |constexpr )+(?:[\w:<>,*& ]|\[\[.*?\]\])*?(?P<function>operator[^\w\s(]+|\w+)\("
+    r"|^(?:CANDELA_EXPORT |inline |constexpr )+(?:[\w:<>,*& ]|\[\[.*?\]\])*?(?P<function>operator[^\w\s(]+|\w+)\("
     r"|^inline constexpr [\w:<>]+ (?P<constant>\w+) = ", re.MULTILINE)
 
 
@@ -70,7 +70,7 @@ def export_findings(files):
     """The differences between a header of api and its module. Plugins see the header; the core and programs see the module."""
     for path, text in files.items():
         folder, name = path.rsplit("/", 1)
-        if folder != "core/api/include/candela" or not name.endswith(".h") or name in HEADERS_ALONE:
+        if folder != "core/include/candela" or not name.endswith(".h") or name in HEADERS_ALONE:
             continue
         module = f"core/api/{name[:-2]}.cppm"
         if module not in files:

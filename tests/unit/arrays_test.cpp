@@ -1,4 +1,4 @@
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // docs/versioning.md: a plugin works only with the interface version, and the layout, that it was built for.
-#include "candela/abi.h"
+#include "candela/plugin/abi.h"
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/generators/catch_generators.hpp>

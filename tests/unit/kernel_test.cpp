@@ -1,4 +1,4 @@
-#include <candela/kernel.h>
+#include <candela/kernel/kernel.h>
 
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>

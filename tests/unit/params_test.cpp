@@ -1,4 +1,4 @@
-#include <candela/abi.h>
+#include <candela/plugin/abi.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>

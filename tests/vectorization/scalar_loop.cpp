@@ -1,5 +1,5 @@
 // A batch loop that cannot be vectorised, because each step needs the previous one. The check must notice.
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 
 #include <cstddef>
 

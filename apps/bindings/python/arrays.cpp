@@ -1,6 +1,6 @@
 #include "arrays.h"
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 
 namespace candela::python {
 

@@ -147,7 +147,7 @@ std::string KernelProgram::traced_prelude(const std::string& prelude) {
 }
 
 std::string KernelProgram::source() {
-    std::string text = fmt::format("{}#include \"candela/kernel.h\"\nnamespace candela::kernel {{\n",
+    std::string text = fmt::format("{}#include \"candela/kernel/kernel.h\"\nnamespace candela::kernel {{\n",
                                    kernel_trace_prelude());
     for (const PluginDescriptor* const plugin : plugins_) {
         const std::string file = std::string(plugin->name) + ".kernel";

@@ -29,7 +29,7 @@ class KernelProgram {
 
     /// Call this first: its notes precede the others. `prelude` is the installed text of prelude.kernel.
     std::string traced_prelude(const std::string& prelude);
-    /// C++ that includes "candela/kernel.h"; call it after traced_prelude().
+    /// C++ that includes "candela/kernel/kernel.h"; call it after traced_prelude().
     std::string source();
     /// The program's input for these calls, in order, without calls to functions that no kernel has. The
     /// program prints "call INDEX" before the notes of each.

@@ -42,13 +42,13 @@ void write_text(const fs::path& file, const std::string& text) {
 /// Hashes all headers that the programs are compiled with, but not the modules, which are installed in a
 /// folder next to them.
 std::size_t hash_of_headers(const fs::path& include) {
-    std::vector<std::string> names =
-        candela::names_in(include / "candela").value_or(std::vector<std::string>());
+    const fs::path folder = include / "candela/kernel";
+    std::vector<std::string> names = candela::names_in(folder).value_or(std::vector<std::string>());
     std::ranges::sort(names);
     std::string all;
     for (const std::string& name : names) {
-        const fs::path file = include / "candela" / name;
         std::error_code problem;
+        const fs::path file = folder / name;
         if (fs::is_regular_file(file, problem)) all += name + text_of_file(file);
     }
     return std::hash<std::string>()(all);
@@ -72,25 +72,26 @@ void KernelRunner::prepare() {
     if (std::exchange(is_prepared_, true)) return;
     const fs::path include = kernel_headers();
     std::error_code problem;
-    if (!fs::exists(include / "candela/kernel.h", problem)) {
+    if (!fs::exists(include / "candela/kernel/kernel.h", problem)) {
         why_not_ =
             "the kernels' steps are left out: Candela's headers are not installed (package "
             "candela-dev)";
         return;
     }
-    const std::string prelude = program_.traced_prelude(text_of_file(include / "candela/prelude.kernel"));
+    const std::string prelude =
+        program_.traced_prelude(text_of_file(include / "candela/kernel/prelude.kernel"));
     const std::string text =
         fmt::format("// with headers {:016x}\n", hash_of_headers(include)) + program_.source();
     const fs::path kept_program =
         kept_.empty() ? fs::path() : kept_ / fmt::format("{:016x}", std::hash<std::string>()(prelude + text));
     const bool is_there = !kept_.empty() && is_own_folder(kept_program) &&
                           text_of_file(kept_program / "kernels.cpp") == text &&
-                          text_of_file(kept_program / "candela/prelude.kernel") == prelude;
+                          text_of_file(kept_program / "candela/kernel/prelude.kernel") == prelude;
     const fs::path made = folder_.path() / "program";
     if (!is_there) {
-        fs::create_directories(made / "candela");
+        fs::create_directories(made / "candela/kernel");
         fs::permissions(made, fs::perms::owner_all);  // see is_own_folder()
-        write_text(made / "candela/prelude.kernel", prelude);
+        write_text(made / "candela/kernel/prelude.kernel", prelude);
         write_text(made / "kernels.cpp", text);
         if (!compile(made)) return;
         // Appears complete or not at all; another process may have been faster.
@@ -105,7 +106,7 @@ bool KernelRunner::compile(const fs::path& folder) {
         why_not_ = "the kernels' steps are left out: no C++ compiler is installed";
         return false;
     }
-    // The compiler searches this folder before that of kernel.h, for "candela/prelude.kernel".
+    // The compiler searches this folder before that of kernel.h, for "candela/kernel/prelude.kernel".
     const candela::ProgramOutput compiled = run_kernel_compiler(
         *program,
         {"-std=c++20", "-O0", "-w", "-fno-math-errno", "-ffp-contract=off", "-I", folder.string(), "-I",

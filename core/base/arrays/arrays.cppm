@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <bit>
 #include <cstddef>
@@ -27,7 +27,7 @@ constexpr std::size_t whole_vectors(std::size_t count) { return (count + k_lanes
 /// Returns zeroed memory, which std::free() releases. The system zeroes it page by page, for whichever thread
 /// touches a page first; two megabytes and more are in large pages, if available, because finding forty small
 /// ones takes as long as zeroing one of two megabytes. Throws std::bad_alloc. Any thread.
-CANDELA_API void* zeroed_memory(std::size_t size);
+CANDELA_EXPORT void* zeroed_memory(std::size_t size);
 
 /// Memory aligned to cache lines, because accessing a 64-byte vector that straddles two lines takes twice as
 /// long. Elements constructed without a value keep the memory's contents: zeros, or the old values if a

@@ -1,7 +1,7 @@
 // Errors as data: problems at a position in a file, and failures.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <map>
@@ -41,7 +41,7 @@ struct Help {
 };
 
 /// A failure that ends the requested operation. `what()` is one plain sentence for the user.
-class CANDELA_API Error : public std::runtime_error {
+class CANDELA_EXPORT Error : public std::runtime_error {
   public:
     Error(ErrorCategory category, const std::string& message, Help help = {});
     ~Error() override;
@@ -74,7 +74,7 @@ struct Diagnostic {
 };
 
 /// All problems found in one run. Not thread-safe.
-class CANDELA_API Diagnostics {
+class CANDELA_EXPORT Diagnostics {
   public:
     /// The scene is wrong.
     void error(SourcePlace place, std::string message, std::string hint = {}, Help help = {});

@@ -1,7 +1,7 @@
 // Text from files, and atomic file writes.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -36,7 +36,7 @@ enum class Durability : bool { durable, fast };
 /// pipe, a device) are written to directly. With `Existing::kept`, an existing file is an error, even if it
 /// was created meanwhile. With `Links::not_followed`, the file replaces a symbolic link, and anything else
 /// that is not a regular file is an error. All members throw Error (failure). One thread at a time.
-class CANDELA_API OutputFile {
+class CANDELA_EXPORT OutputFile {
   public:
     explicit OutputFile(const std::filesystem::path& path, Existing existing = Existing::replaced,
                         Links links = Links::followed);
@@ -80,7 +80,7 @@ class CANDELA_API OutputFile {
 /// A regular file opened for reading. Opening anything else (a pipe, a device, a folder) fails, without
 /// waiting. Does not use a stream, which mistakes a lack of memory for the end of the file. One thread at a
 /// time.
-class CANDELA_API RegularFile {
+class CANDELA_EXPORT RegularFile {
   public:
     explicit RegularFile(const std::filesystem::path& path, Links links = Links::followed);
     RegularFile(const RegularFile&) = delete;
@@ -103,27 +103,28 @@ class CANDELA_API RegularFile {
 
 /// The bytes of a regular file, or nothing if it cannot be read. Of a file larger than `most`, a little more
 /// than `most` bytes.
-CANDELA_API std::optional<std::string> read_text_file(const std::filesystem::path& path,
-                                                      std::size_t most = std::string::npos,
-                                                      Links links = Links::followed);
+CANDELA_EXPORT std::optional<std::string> read_text_file(const std::filesystem::path& path,
+                                                         std::size_t most = std::string::npos,
+                                                         Links links = Links::followed);
 
 /// The names of a folder's entries, in no particular order, and at most `most` of them; nothing if it cannot
 /// be read. Throws std::bad_alloc if out of memory; std::filesystem::directory_iterator would terminate the
 /// program (libstdc++ 12).
-CANDELA_API std::optional<std::vector<std::string>> names_in(const std::filesystem::path& folder,
-                                                             std::size_t most = std::string::npos);
+CANDELA_EXPORT std::optional<std::vector<std::string>> names_in(const std::filesystem::path& folder,
+                                                                std::size_t most = std::string::npos);
 
 /// The path without links and dots, whether or not it exists; the path itself if that cannot be determined.
 /// Throws std::bad_alloc if out of memory, which std::filesystem only reports as an error.
-CANDELA_API std::filesystem::path canonical_path(const std::filesystem::path& path);
+CANDELA_EXPORT std::filesystem::path canonical_path(const std::filesystem::path& path);
 
 /// Writes a text through an OutputFile.
-CANDELA_API void write_text_file(const std::filesystem::path& path, std::string_view text,
-                                 Existing existing = Existing::replaced);
+CANDELA_EXPORT void write_text_file(const std::filesystem::path& path, std::string_view text,
+                                    Existing existing = Existing::replaced);
 
 /// Creates the folder `owned`, relative to `parent` and chosen by Candela, and the parents of both. No part
 /// of `owned` may be a symbolic link. Throws Error (failure).
-CANDELA_API void make_owned_folder(const std::filesystem::path& parent, const std::filesystem::path& owned);
+CANDELA_EXPORT void make_owned_folder(const std::filesystem::path& parent,
+                                      const std::filesystem::path& owned);
 
 /// A file's text as it was read, and its replacement.
 struct TextChange {
@@ -133,10 +134,10 @@ struct TextChange {
 
 /// Replaces texts, all or none: if a file no longer contains the text that was read, because another program
 /// has saved it meanwhile, nothing is written. Throws Error (failure).
-CANDELA_API void replace_texts(std::span<const TextChange> changes);
+CANDELA_EXPORT void replace_texts(std::span<const TextChange> changes);
 
 /// Removes the temporary files that exist at this moment; they will not be finished. For signal handlers
 /// (async-signal-safe). A program that never calls it leaves them behind only if a signal ends the process.
-CANDELA_API void remove_unfinished_files() noexcept;
+CANDELA_EXPORT void remove_unfinished_files() noexcept;
 
 }  // namespace candela

@@ -1,7 +1,7 @@
 // Runs programs of this machine, without a shell.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <chrono>
 #include <condition_variable>
@@ -49,22 +49,23 @@ struct Patience {
 };
 
 /// The path of an executable of that name on PATH.
-CANDELA_API std::optional<std::filesystem::path> program_called(const std::string& name);
+CANDELA_EXPORT std::optional<std::filesystem::path> program_called(const std::string& name);
 
 /// The C++ compiler of this machine: the one that the environment variable CXX names, otherwise the newest
 /// clang++, otherwise the newest g++. Nothing if there is none.
-CANDELA_API std::optional<std::filesystem::path> cxx_compiler();
+CANDELA_EXPORT std::optional<std::filesystem::path> cxx_compiler();
 
 /// Runs a program without input and waits for it. A name without '/' is looked up on PATH. Throws Error
 /// (failure) if the program cannot be started. Any thread.
-CANDELA_API ProgramOutput run_program(const std::vector<std::string>& words, const Patience& patience = {});
+CANDELA_EXPORT ProgramOutput run_program(const std::vector<std::string>& words,
+                                         const Patience& patience = {});
 
 /// Like run_program(), but inherits this process's streams. Returns the exit code.
-CANDELA_API int show_program(const std::vector<std::string>& words);
+CANDELA_EXPORT int show_program(const std::vector<std::string>& words);
 
 /// A program that answers each line of input with a line, and ends at the end of its input. One thread at a
 /// time.
-class CANDELA_API AnsweringProgram {
+class CANDELA_EXPORT AnsweringProgram {
   public:
     /// Starts the program; throws like run_program().
     explicit AnsweringProgram(const std::vector<std::string>& words);
@@ -86,7 +87,7 @@ class CANDELA_API AnsweringProgram {
 
 /// A program that prepares itself, then waits for a line on its standard input before doing its work. One
 /// thread at a time.
-class CANDELA_API WaitingProgram {
+class CANDELA_EXPORT WaitingProgram {
   public:
     /// Starts the program; throws like run_program().
     explicit WaitingProgram(const std::vector<std::string>& words);

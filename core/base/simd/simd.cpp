@@ -1,6 +1,6 @@
 module;
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 
 #if defined(__x86_64__)
 // NOLINTNEXTLINE: before glibc 2.37 this header is C only

@@ -1,8 +1,8 @@
 // The instruction set of the batch loops, and code that several stages share. Every loop is compiled for each
-// set; see candela/multiversion.h.
+// set; see candela/kernel/simd_dispatch.h.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstdint>
 #include <optional>
@@ -20,21 +20,21 @@ inline constexpr InstructionSet k_instruction_sets[] = {InstructionSet::baseline
                                                         InstructionSet::avx512};
 
 /// The widest set this processor supports.
-CANDELA_API InstructionSet best_instruction_set() noexcept;
+CANDELA_EXPORT InstructionSet best_instruction_set() noexcept;
 
 /// The set in use: the widest, unless use_instruction_set() chose another. Any thread.
-CANDELA_API InstructionSet instruction_set() noexcept;
+CANDELA_EXPORT InstructionSet instruction_set() noexcept;
 
 /// Chooses the set for all later batches of this process: for tests and measurements. Returns false and
 /// changes nothing if the processor does not support it.
-CANDELA_API bool use_instruction_set(InstructionSet set) noexcept;
+CANDELA_EXPORT bool use_instruction_set(InstructionSet set) noexcept;
 
 /// "baseline", "avx2" or "avx512".
-CANDELA_API std::string_view name_of(InstructionSet set) noexcept;
-CANDELA_API std::optional<InstructionSet> instruction_set_named(std::string_view name) noexcept;
+CANDELA_EXPORT std::string_view name_of(InstructionSet set) noexcept;
+CANDELA_EXPORT std::optional<InstructionSet> instruction_set_named(std::string_view name) noexcept;
 
 /// Whether all of these numbers are equal; true if there are none. Any thread.
-CANDELA_API bool are_all_equal(std::span<const std::int32_t> numbers) noexcept;
-CANDELA_API bool are_all_equal(std::span<const std::uint32_t> numbers) noexcept;
+CANDELA_EXPORT bool are_all_equal(std::span<const std::int32_t> numbers) noexcept;
+CANDELA_EXPORT bool are_all_equal(std::span<const std::uint32_t> numbers) noexcept;
 
 }  // namespace candela

@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <filesystem>
 #include <optional>
@@ -27,24 +27,24 @@ struct DecodedPicture {
 
 /// The format that a picture's first 32 bytes identify, as an extension such as "png" or "jpg"; empty if they
 /// do not, as in TGA files.
-CANDELA_API std::string_view format_by_content(std::string_view head) noexcept;
+CANDELA_EXPORT std::string_view format_by_content(std::string_view head) noexcept;
 /// Like format_by_content(), for a file; empty if it is not a regular file.
-CANDELA_API std::string_view format_of_content(const std::filesystem::path& file);
+CANDELA_EXPORT std::string_view format_of_content(const std::filesystem::path& file);
 /// Whether two extensions name one format, as "jpg" and "jpeg" do.
-CANDELA_API bool are_one_format(std::string_view a, std::string_view b) noexcept;
+CANDELA_EXPORT bool are_one_format(std::string_view a, std::string_view b) noexcept;
 
 /// The image plugin that reads a picture: by its content if that identifies its format, otherwise by its
 /// name; null if there is none. Throws Error like Registry::find_format(). Any thread.
-CANDELA_API const PluginFile* reader_of(const std::filesystem::path& file, Registry& registry);
+CANDELA_EXPORT const PluginFile* reader_of(const std::filesystem::path& file, Registry& registry);
 
 /// Reads a picture with the plugin of reader_of(); nothing if there is none. Throws Error (failure) if the
 /// plugin cannot read it or memory is short. Any thread.
-CANDELA_API std::optional<DecodedPicture> read_by_plugin(const std::filesystem::path& file,
-                                                         Registry& registry, ColorEncoding encoding,
-                                                         bool with_opacity = false);
+CANDELA_EXPORT std::optional<DecodedPicture> read_by_plugin(const std::filesystem::path& file,
+                                                            Registry& registry, ColorEncoding encoding,
+                                                            bool with_opacity = false);
 
 /// " (possible: pnm, png)", and the package of the other formats if their plugin is not installed. Throws
 /// Error like Registry::extensions(). Any thread.
-CANDELA_API std::string possible_formats(Registry& registry, FormatUse use);
+CANDELA_EXPORT std::string possible_formats(Registry& registry, FormatUse use);
 
 }  // namespace candela

@@ -1,6 +1,6 @@
 module;
 
-#include "candela/abi.h"
+#include "candela/plugin/abi.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <optional>
 #include <span>
@@ -29,7 +29,7 @@ struct ManifestFormat {
 
 /// A plugin's description of itself, from the file next to its library: enough to list it, describe it and
 /// check a scene without loading it.
-struct CANDELA_API Manifest {
+struct CANDELA_EXPORT Manifest {
     std::string abi;
     PluginKind kind = PluginKind::light;
     std::string name;
@@ -59,19 +59,19 @@ struct CANDELA_API Manifest {
 };
 
 /// The fingerprint of this core: interface version, C++ ABI, standard library.
-CANDELA_API std::string_view host_abi() noexcept;
+CANDELA_EXPORT std::string_view host_abi() noexcept;
 
-CANDELA_API Manifest manifest_of(const PluginDescriptor& descriptor, std::string_view abi);
-CANDELA_API std::string to_json(const Manifest& manifest);
+CANDELA_EXPORT Manifest manifest_of(const PluginDescriptor& descriptor, std::string_view abi);
+CANDELA_EXPORT std::string to_json(const Manifest& manifest);
 /// Several manifests as one array.
-CANDELA_API std::string to_json(std::span<const Manifest> manifests);
+CANDELA_EXPORT std::string to_json(std::span<const Manifest> manifests);
 /// Throws Error (bad_request) if an author or a licence (`what` says which) is longer than 200 characters or
 /// contains invisible ones.
-CANDELA_API void require_name(std::string_view text, std::string_view what);
+CANDELA_EXPORT void require_name(std::string_view text, std::string_view what);
 /// Throws Error with a plain sentence about `text`.
-CANDELA_API Manifest manifest_from_json(std::string_view text);
+CANDELA_EXPORT Manifest manifest_from_json(std::string_view text);
 /// The fingerprint that a plugin was built for, even if this Candela cannot read the rest of its manifest;
 /// empty if the manifest does not state it.
-CANDELA_API std::string abi_from_json(std::string_view text);
+CANDELA_EXPORT std::string abi_from_json(std::string_view text);
 
 }  // namespace candela

@@ -2,7 +2,7 @@
 // quoted in messages.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstdint>
 #include <memory>
@@ -63,37 +63,37 @@ struct Preset {
     friend bool operator==(const Preset&, const Preset&) = default;
 };
 
-CANDELA_API Parameter parameter_of(const ParamSpec& spec);
+CANDELA_EXPORT Parameter parameter_of(const ParamSpec& spec);
 /// Throws Error (failure) if the preset sets a parameter that does not exist.
-CANDELA_API Preset preset_of(const PresetSpec& spec, std::span<const ParamSpec> parameters);
-CANDELA_API Relation relation_of(const RelationSpec& spec);
+CANDELA_EXPORT Preset preset_of(const PresetSpec& spec, std::span<const ParamSpec> parameters);
+CANDELA_EXPORT Relation relation_of(const RelationSpec& spec);
 
-CANDELA_API std::optional<ParamType> param_type_named(std::string_view name) noexcept;
-CANDELA_API std::string_view name_of(RelationType type) noexcept;
-CANDELA_API std::optional<RelationType> relation_type_named(std::string_view name) noexcept;
+CANDELA_EXPORT std::optional<ParamType> param_type_named(std::string_view name) noexcept;
+CANDELA_EXPORT std::string_view name_of(RelationType type) noexcept;
+CANDELA_EXPORT std::optional<RelationType> relation_type_named(std::string_view name) noexcept;
 
 /// The constraint on a value: "a number, at least 0", "three integers 0-255", "one of 'a', 'b'".
-CANDELA_API std::string constraint_text(const Parameter& parameter);
+CANDELA_EXPORT std::string constraint_text(const Parameter& parameter);
 
 /// The range alone: "0 to 1", "greater than 0", or empty.
-CANDELA_API std::string range_text(const Parameter& parameter);
+CANDELA_EXPORT std::string range_text(const Parameter& parameter);
 
 /// A value as written in a scene file.
-CANDELA_API std::string text_of(const Value& value);
+CANDELA_EXPORT std::string text_of(const Value& value);
 
 /// The requirement of a relation: "inner_angle does not exceed outer_angle: the cone of full light …".
-CANDELA_API std::string text_of(const Relation& relation);
+CANDELA_EXPORT std::string text_of(const Relation& relation);
 
 /// Why `value`, which already has the parameter's type, is invalid, or nothing. `written`: the author's
 /// spelling of it, for the message; may be empty.
-CANDELA_API std::optional<std::string> validation_error(const Parameter& parameter, const Value& value,
-                                                        std::string_view written = {});
+CANDELA_EXPORT std::optional<std::string> validation_error(const Parameter& parameter, const Value& value,
+                                                           std::string_view written = {});
 
 /// A schema shared by many sets. Never null.
 using SharedSchema = std::shared_ptr<const std::vector<Parameter>>;
 
 /// The values of one schema: every parameter has one, except required ones that are not yet set.
-class CANDELA_API ParamSet {
+class CANDELA_EXPORT ParamSet {
   public:
     ParamSet();
     explicit ParamSet(std::vector<Parameter> schema);
@@ -116,7 +116,7 @@ class CANDELA_API ParamSet {
     std::vector<ParamValue> delivered(ColorEncoding encoding) const;
 
     /// Equal schemas and equal values.
-    friend CANDELA_API bool operator==(const ParamSet& a, const ParamSet& b);
+    friend CANDELA_EXPORT bool operator==(const ParamSet& a, const ParamSet& b);
 
   private:
     SharedSchema schema_;
@@ -124,6 +124,6 @@ class CANDELA_API ParamSet {
 };
 
 /// How `set` violates the relation, or nothing.
-CANDELA_API std::optional<std::string> validation_error(const Relation& relation, const ParamSet& set);
+CANDELA_EXPORT std::optional<std::string> validation_error(const Relation& relation, const ParamSet& set);
 
 }  // namespace candela

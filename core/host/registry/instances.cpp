@@ -1,6 +1,6 @@
 module;
 
-#include "candela/instances.h"
+#include "candela/plugin/instances.h"
 
 #include <filesystem>
 #include <memory>

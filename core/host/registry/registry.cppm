@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -46,7 +46,7 @@ struct Refusal {
 };
 
 /// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins next to the core.
-CANDELA_API std::vector<std::filesystem::path> plugin_search_path(
+CANDELA_EXPORT std::vector<std::filesystem::path> plugin_search_path(
     std::span<const std::filesystem::path> first);
 
 template <class Interface>
@@ -87,7 +87,7 @@ using ReplacementHandler = std::function<void(const Refusal&)>;
 /// sound, judged without loading it. If an earlier one was refused, `on_replaced` is called. A refused plugin
 /// in the first `named_folders` folders, which the user has named for this purpose, is not replaced: then
 /// there is none. Failing to load the chosen library is an error.
-class CANDELA_API Registry {
+class CANDELA_EXPORT Registry {
   public:
     explicit Registry(std::vector<std::filesystem::path> search_path,
                       PluginTrust trust = PluginTrust::own_and_system, std::size_t named_folders = 0,

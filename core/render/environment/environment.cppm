@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <filesystem>
@@ -16,7 +16,7 @@ import candela.registry;
 export namespace candela {
 
 /// The intensity from infinity, by direction: uniform, or from an environment map. Immutable; any thread.
-class CANDELA_API Environment {
+class CANDELA_EXPORT Environment {
   public:
     explicit Environment(Rgb everywhere = {});
     /// An equirectangular picture: its centre is the view along -z, its right half is towards +x, its top row
@@ -41,7 +41,7 @@ class CANDELA_API Environment {
 
 /// Reads a picture as an environment; 8-bit colours are decoded according to `encoding`. Throws Error if no
 /// image plugin supports the format or the file is unreadable.
-CANDELA_API Environment read_environment(const std::filesystem::path& file, Registry& registry,
-                                         ColorEncoding encoding);
+CANDELA_EXPORT Environment read_environment(const std::filesystem::path& file, Registry& registry,
+                                            ColorEncoding encoding);
 
 }  // namespace candela

@@ -1,7 +1,7 @@
 // A validated scene as targets see it, and the files that they make of it.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <functional>
@@ -36,7 +36,7 @@ struct ExportRequest {
 };
 
 /// An ExportedScene and all its memory.
-class CANDELA_API SceneExport {
+class CANDELA_EXPORT SceneExport {
   public:
     /// Loads the plugins of `scene`. Throws Error if the target cannot express it, and (usage) if an extra
     /// model is unknown. `registry` must outlive this.
@@ -65,11 +65,11 @@ struct ExportedProgram {
 
 /// Throws Error that names the target if write() throws, or if a file's name leads outside the folder or
 /// occurs twice. `name`: the target's.
-CANDELA_API ExportedProgram program_of(const Target& target, const std::string& name,
-                                       const ExportedScene& scene);
+CANDELA_EXPORT ExportedProgram program_of(const Target& target, const std::string& name,
+                                          const ExportedScene& scene);
 
 /// Runs programs as this process's user.
-class CANDELA_API SystemPrograms final : public ProgramRunner {
+class CANDELA_EXPORT SystemPrograms final : public ProgramRunner {
   public:
     bool has(const char* program) override;
     ProgramResult run(std::span<const char* const> words) override;

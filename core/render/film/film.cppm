@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -34,7 +34,7 @@ struct RowRange {
 
 /// The picture being made, with pixels in the form of its file format: 8-bit, clamped and encoded, or 32-bit
 /// float, as computed.
-class CANDELA_API Film {
+class CANDELA_EXPORT Film {
   public:
     /// Throws Error if memory is insufficient.
     Film(int width, int height, PixelType pixels, ColorEncoding encoding);
@@ -83,31 +83,31 @@ struct PictureFormat {
 
 /// The format of a path, by its extension, with the plugin's default parameters; "-", standard output, is
 /// PNG. Throws Error for an extension that no plugin writes.
-CANDELA_API PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
+CANDELA_EXPORT PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
 
 /// Writes the picture atomically, through an OutputFile; `existing` and `links` say how to treat an existing
 /// file and a link.
 /// Plugins that encode on several threads use those of with_threads(). Throws Error.
-CANDELA_API void write_picture(const Film& film, const PictureFormat& format,
-                               const std::filesystem::path& path, Registry& registry,
-                               Existing existing = Existing::replaced, Links links = Links::followed);
+CANDELA_EXPORT void write_picture(const Film& film, const PictureFormat& format,
+                                  const std::filesystem::path& path, Registry& registry,
+                                  Existing existing = Existing::replaced, Links links = Links::followed);
 
 /// Like the above, into a file that the caller finishes.
-CANDELA_API void write_picture(const Film& film, const PictureFormat& format, OutputFile& file,
-                               Registry& registry);
+CANDELA_EXPORT void write_picture(const Film& film, const PictureFormat& format, OutputFile& file,
+                                  Registry& registry);
 
 /// Whether write_rows() can write the format without the whole picture in memory.
-CANDELA_API bool can_write_rows(const PictureFormat& format, Registry& registry);
+CANDELA_EXPORT bool can_write_rows(const PictureFormat& format, Registry& registry);
 
 /// Writes the same bytes as write_picture(), for a picture that need not be in memory. `whole`: the picture
 /// without its pixels. Throws Error.
-CANDELA_API void write_rows(const PictureView& whole, PictureRows& rows, const PictureFormat& format,
-                            const std::filesystem::path& path, Registry& registry,
-                            Existing existing = Existing::replaced);
+CANDELA_EXPORT void write_rows(const PictureView& whole, PictureRows& rows, const PictureFormat& format,
+                               const std::filesystem::path& path, Registry& registry,
+                               Existing existing = Existing::replaced);
 
 /// Writes a picture with layers in the same way, in a format that supports them.
-CANDELA_API void write_layers(int width, int height, std::span<const PictureChannel> channels,
-                              const PictureFormat& format, const std::filesystem::path& path,
-                              Registry& registry, Existing existing = Existing::replaced);
+CANDELA_EXPORT void write_layers(int width, int height, std::span<const PictureChannel> channels,
+                                 const PictureFormat& format, const std::filesystem::path& path,
+                                 Registry& registry, Existing existing = Existing::replaced);
 
 }  // namespace candela

@@ -1,7 +1,7 @@
 // From visibility to surface points: faces, vertices and fragments, gathered in batches.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <array>
 #include <cstddef>
@@ -54,7 +54,7 @@ struct BackgroundRun {
 };
 
 /// All fragments of a tile, one list per object, in the scene's order. Reused from tile to tile.
-class CANDELA_API TileFragments {
+class CANDELA_EXPORT TileFragments {
   public:
     /// Sorts the samples of `visibility` into fragments.
     void collect(const ProjectedScene& scene, const TileVisibility& visibility);
@@ -117,12 +117,12 @@ struct ProjectedMesh {
 
 /// Fills `points` with the fragments of a batch: barycentric coordinates on the triangle itself (Blinn 1992,
 /// "Hyperbolic interpolation"), and everything derived from them.
-CANDELA_API void gather_fragments(const ProjectedMesh& mesh, const FragmentBatch& batch, PointNeeds needs,
-                                  SurfacePoints& points);
+CANDELA_EXPORT void gather_fragments(const ProjectedMesh& mesh, const FragmentBatch& batch, PointNeeds needs,
+                                     SurfacePoints& points);
 
 /// Fills `points` with the centroids of triangles.
-CANDELA_API void gather_faces(const ProjectedMesh& mesh, std::span<const std::uint32_t> triangles,
-                              PointNeeds needs, SurfacePoints& points);
+CANDELA_EXPORT void gather_faces(const ProjectedMesh& mesh, std::span<const std::uint32_t> triangles,
+                                 PointNeeds needs, SurfacePoints& points);
 
 /// A vertex seen from the front or from behind.
 struct VertexSide {
@@ -132,11 +132,11 @@ struct VertexSide {
 
 /// Fills `points` with vertices. A vertex has no face of its own, so its vertex normal also serves as its
 /// face normal.
-CANDELA_API void gather_vertices(const ProjectedMesh& mesh, std::span<const VertexSide> vertices,
-                                 PointNeeds needs, SurfacePoints& points);
+CANDELA_EXPORT void gather_vertices(const ProjectedMesh& mesh, std::span<const VertexSide> vertices,
+                                    PointNeeds needs, SurfacePoints& points);
 
 /// Fills `points` with points on triangles, given their barycentric coordinates; all are seen from the front.
-CANDELA_API void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles,
-                               ConstVec3Span barycentric, PointNeeds needs, SurfacePoints& points);
+CANDELA_EXPORT void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles,
+                                  ConstVec3Span barycentric, PointNeeds needs, SurfacePoints& points);
 
 }  // namespace candela

@@ -1,7 +1,7 @@
 // Points on surfaces, in batches.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <array>
 #include <cstddef>
@@ -19,7 +19,7 @@ inline constexpr std::size_t k_batch_size = 256;
 
 /// Points on one object's surface, as a structure of arrays with room for k_batch_size. Reused from batch to
 /// batch.
-struct CANDELA_API SurfacePoints {
+struct CANDELA_EXPORT SurfacePoints {
     SurfacePoints();
 
     std::size_t count = 0;

@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@ struct RayExits {
 };
 
 /// Triangles, for rays that run inside their surface. Immutable; any thread.
-class CANDELA_API TriangleTree {
+class CANDELA_EXPORT TriangleTree {
   public:
     /// Triangles are counter-clockwise seen from outside.
     TriangleTree(ConstVec3Span position, std::size_t vertex_count, std::span<const std::uint32_t> indices);

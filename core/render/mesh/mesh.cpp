@@ -1,6 +1,6 @@
 module;
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 
 #include <fmt/format.h>
 

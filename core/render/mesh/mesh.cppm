@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <array>
 #include <cstddef>
@@ -66,21 +66,21 @@ struct PlacedShape {
 /// Tessellates `shape` and places it in the world. `progress` receives the shape's own progress, 0 to 1.
 /// Throws the shape's exceptions (std::exception), and std::invalid_argument for a mesh without triangles,
 /// with an index out of range, or with a non-finite position.
-CANDELA_API PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& transform,
-                              const std::function<void(double)>& progress = {});
+CANDELA_EXPORT PlacedShape place(const Shape& shape, const MeshRequest& request, const Transform& transform,
+                                 const std::function<void(double)>& progress = {});
 
 /// Computes a mesh's face normals and the vertex normals of `shading`, with the threads that with_threads()
 /// allows. Throws the shading model's exceptions.
-CANDELA_API Mesh with_normals(PlacedShape placed, const ShadingModel& shading);
+CANDELA_EXPORT Mesh with_normals(PlacedShape placed, const ShadingModel& shading);
 
 /// Computes only the face normals, which later calls of vertex_normals() can then reuse.
-CANDELA_API void make_face_normals(Mesh& mesh);
+CANDELA_EXPORT void make_face_normals(Mesh& mesh);
 
 /// The vertex normals of `shading` for a mesh that has its face normals. Throws like with_normals().
-CANDELA_API Vec3Arrays vertex_normals(const PlacedShape& placed, const ShadingModel& shading);
+CANDELA_EXPORT Vec3Arrays vertex_normals(const PlacedShape& placed, const ShadingModel& shading);
 
 /// place(), then with_normals().
-CANDELA_API Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Transform& transform,
-                            const ShadingModel& shading);
+CANDELA_EXPORT Mesh build_mesh(const Shape& shape, const MeshRequest& request, const Transform& transform,
+                               const ShadingModel& shading);
 
 }  // namespace candela

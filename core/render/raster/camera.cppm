@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 export module candela.raster:camera;
 
@@ -10,7 +10,7 @@ import candela.transform;
 export namespace candela {
 
 /// The observer's view. Pixel (0, 0) is top left; the centre of pixel (x, y) is at (x + 1/2, y + 1/2).
-struct CANDELA_API Camera {
+struct CANDELA_EXPORT Camera {
     Vec3 eye;
     Vec3 right, up, forward;  // orthonormal
     Projection projection = Projection::perspective;

@@ -2,7 +2,7 @@
 // predictors cannot learn: hence sixteen at a time, without branches.
 module;
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 module;
 
-#include "candela/kernel.h"
-#include "candela/multiversion.h"
+#include "candela/kernel/kernel.h"
+#include "candela/kernel/simd_dispatch.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -104,11 +104,11 @@ struct ProjectedScene {
 
 /// Tiles are squares of `tile_size` pixels, a power of two from 16 on. Triangles are numbered consecutively
 /// over all meshes. Throws std::length_error if there are more than 2^32 - 2 triangles or vertices.
-CANDELA_API ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
-                                   int samples);
+CANDELA_EXPORT ProjectedScene project(std::span<const Mesh* const> meshes, const Camera& camera,
+                                      int tile_size, int samples);
 
 /// Like the above, reusing the memory of a previously projected scene, for some rows of tiles or all.
-CANDELA_API void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
-                         int samples, ProjectedScene& scene, std::optional<TileRows> rows = {});
+CANDELA_EXPORT void project(std::span<const Mesh* const> meshes, const Camera& camera, int tile_size,
+                            int samples, ProjectedScene& scene, std::optional<TileRows> rows = {});
 
 }  // namespace candela

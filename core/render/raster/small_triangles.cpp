@@ -1,7 +1,7 @@
 // Rasterises triangles about a pixel large, many at once: meshes finer than the picture consist of them.
 module;
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 
 #include <cstddef>
 #include <cstdint>

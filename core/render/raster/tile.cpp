@@ -1,7 +1,7 @@
 // Rasterisation of one tile: edge functions (Pineda 1988) in fixed point, and a depth test.
 module;
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +20,7 @@ struct SamplePosition {
     std::uint8_t x, y;
 };
 /// For 1, 4, 8 or 16 samples per pixel: the centre, or the patterns of the D3D 11 specification.
-CANDELA_API std::span<const SamplePosition> sample_pattern(int samples) noexcept;
+CANDELA_EXPORT std::span<const SamplePosition> sample_pattern(int samples) noexcept;
 
 /// The triangles that one tile sees. Reused from tile to tile.
 struct TileVisibility {
@@ -43,6 +43,6 @@ struct TileVisibility {
 /// Finds what tile `tile`, 0 <= tile < tile_count(), sees: the nearest triangle at each sample, and the first
 /// among equally near ones. A sample on a shared edge belongs to only one triangle (top-left rule). Returns
 /// false if no triangle comes near the tile; `visibility` then has only its position. Any thread.
-CANDELA_API bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility);
+CANDELA_EXPORT bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility);
 
 }  // namespace candela

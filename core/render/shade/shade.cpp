@@ -1,8 +1,8 @@
 module;
 
-#include "candela/batch.h"
-#include "candela/kernel.h"
-#include "candela/multiversion.h"
+#include "candela/kernel/batch.h"
+#include "candela/kernel/kernel.h"
+#include "candela/kernel/simd_dispatch.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 // from the reflection plugin.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <array>
 #include <cstddef>
@@ -33,10 +33,10 @@ export namespace candela {
 
 /// Multiplies the points' colours by the surface's texture, if it has one. The points must have been gathered
 /// with what the surface needs.
-CANDELA_API void apply_texture(const SurfaceModels& surface, SurfacePoints& points);
+CANDELA_EXPORT void apply_texture(const SurfaceModels& surface, SurfacePoints& points);
 
 /// Evaluates light, batch by batch. Owns the batch's arrays: use one per thread.
-class CANDELA_API SurfaceShader {
+class CANDELA_EXPORT SurfaceShader {
   public:
     SurfaceShader();
     ~SurfaceShader();

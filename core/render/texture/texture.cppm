@@ -1,7 +1,7 @@
 // Pictures that multiply the colour of a surface, by its texture coordinates.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,7 +31,7 @@ struct TextureCoordinates {
 /// A picture and its mip levels, each half as wide and high as the one before, down to a single texel
 /// (Williams 1983, "Pyramidal parametrics"). Texels are intensities, linear if the scene's are. Immutable;
 /// any thread.
-class CANDELA_API MipMap {
+class CANDELA_EXPORT MipMap {
   public:
     struct Level {
         int width = 0;
@@ -71,7 +71,7 @@ struct TexturePicture {
 
 /// Reads a picture and makes its levels; 8-bit colours are decoded according to `encoding`. Throws Error if
 /// no image plugin supports the format, the file is unreadable, or memory is short.
-CANDELA_API TexturePicture read_texture(const std::filesystem::path& file, Registry& registry,
-                                        ColorEncoding encoding);
+CANDELA_EXPORT TexturePicture read_texture(const std::filesystem::path& file, Registry& registry,
+                                           ColorEncoding encoding);
 
 }  // namespace candela

@@ -1,7 +1,7 @@
 // The constraints that depend on a scene's triangles (CA Table 1).
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,14 +28,14 @@ struct SurfaceView {
 };
 
 /// A light's position, if it has one; ambient and directional lights do not.
-CANDELA_API std::optional<Vec3> position_of(const LightSource& light);
+CANDELA_EXPORT std::optional<Vec3> position_of(const LightSource& light);
 
 /// Checks that objects, lights and the observer are inside the room; that no two lights share a position, nor
 /// a light the observer's; that no light and no observer is inside an object; and that objects do not overlap
 /// (they may touch). Reports every violation at the position of its cause. `surfaces`: one per object, in the
 /// same order; empty ones are skipped. `checked`, if not empty,
 /// is called once for each object.
-CANDELA_API void check_constraints(const SceneDraft& draft, std::span<const SurfaceView> surfaces,
-                                   Diagnostics& diagnostics, const std::function<void()>& checked = {});
+CANDELA_EXPORT void check_constraints(const SceneDraft& draft, std::span<const SurfaceView> surfaces,
+                                      Diagnostics& diagnostics, const std::function<void()>& checked = {});
 
 }  // namespace candela

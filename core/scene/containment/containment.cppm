@@ -1,6 +1,6 @@
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -26,7 +26,7 @@ struct Box {
     }
 };
 
-CANDELA_API Box box_around(ConstVec3Span position, std::size_t count);
+CANDELA_EXPORT Box box_around(ConstVec3Span position, std::size_t count);
 
 /// Whether other bodies may be inside this one.
 enum class Solidity : bool { solid, hollow };
@@ -35,7 +35,7 @@ enum class Solidity : bool { solid, hollow };
 ///
 /// Touching bodies do not overlap, and floats round, so the surface is shrunk by a hundred-thousandth of the
 /// body's size (less for thin ones) before any query.
-class CANDELA_API Body {
+class CANDELA_EXPORT Body {
   public:
     /// Triangles are counter-clockwise seen from outside; a closed surface with the opposite orientation is
     /// detected. `closed`: each edge is shared by two triangles.
@@ -50,7 +50,7 @@ class CANDELA_API Body {
     /// inside-outside segmentation using generalized winding numbers", section 3).
     bool contains(Vec3 point) const;
 
-    friend CANDELA_API bool overlap(const Body& a, const Body& b);
+    friend CANDELA_EXPORT bool overlap(const Body& a, const Body& b);
 
   private:
     struct Surface;
@@ -59,10 +59,10 @@ class CANDELA_API Body {
 
 /// Whether two bodies overlap: their surfaces cross, or one is at least partly inside the other, which is not
 /// hollow.
-CANDELA_API bool overlap(const Body& a, const Body& b);
+CANDELA_EXPORT bool overlap(const Body& a, const Body& b);
 
 /// Finds which of many boxes intersect.
-class CANDELA_API BoxTree {
+class CANDELA_EXPORT BoxTree {
   public:
     explicit BoxTree(std::vector<Box> boxes);
     BoxTree(BoxTree&&) noexcept;

@@ -1,7 +1,7 @@
 // The values of a scene that change from frame to frame.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <optional>
 #include <string>
@@ -23,7 +23,7 @@ enum class Interpolation : int {
 };
 
 /// "step", "linear", "smooth".
-CANDELA_API std::string_view name_of(Interpolation interpolation) noexcept;
+CANDELA_EXPORT std::string_view name_of(Interpolation interpolation) noexcept;
 
 /// The value of a track at one time.
 struct Key {
@@ -32,7 +32,7 @@ struct Key {
     SourcePlace place{};  // of the value
 
     /// Ignores positions in the file.
-    friend CANDELA_API bool operator==(const Key& a, const Key& b);
+    friend CANDELA_EXPORT bool operator==(const Key& a, const Key& b);
 };
 
 /// One value of the scene over time.
@@ -42,14 +42,14 @@ struct Track {
     std::vector<Key> keys;  // at least one, their times strictly increasing, their values of the same type
     Interpolation interpolation = Interpolation::linear;
 
-    friend CANDELA_API bool operator==(const Track& a, const Track& b);
+    friend CANDELA_EXPORT bool operator==(const Track& a, const Track& b);
 };
 
 /// The track's value at a time in seconds: the first key's before it, the last key's after it. Colours and
 /// integers are rounded. Smooth tracks follow the cubic Hermite spline whose tangents are those of Catmull
 /// and Rom (1974) for keys at any distance: the slope between the two neighbours; at the ends, that to the
 /// only neighbour. The spline may exceed the values of its keys.
-CANDELA_API Value value_at(const Track& track, double time);
+CANDELA_EXPORT Value value_at(const Track& track, double time);
 
 /// The observer's path around its look-at point, about the up direction, at constant distance and height.
 struct Orbit {
@@ -67,7 +67,7 @@ struct Animation {
 
     inline double time_of(int frame) const { return frame / fps; }
 
-    friend CANDELA_API bool operator==(const Animation& a, const Animation& b);
+    friend CANDELA_EXPORT bool operator==(const Animation& a, const Animation& b);
 };
 
 }  // namespace candela

@@ -1,7 +1,7 @@
 // The contents of a scene.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <filesystem>
 #include <optional>
@@ -59,7 +59,7 @@ struct Observer {
 
 /// The observer for a picture of that size: if it is narrower than the frame, it shows more above and below
 /// instead of less at the sides.
-CANDELA_API Observer fitted(Observer observer, int width, int height);
+CANDELA_EXPORT Observer fitted(Observer observer, int width, int height);
 
 struct ImageSettings {
     int width = 512;
@@ -87,7 +87,7 @@ struct Model {
 };
 
 /// The name in a label of a light or an object: lamp in 'lamp'. None if the label is an index.
-CANDELA_API std::optional<std::string_view> name_of_label(std::string_view label) noexcept;
+CANDELA_EXPORT std::optional<std::string_view> name_of_label(std::string_view label) noexcept;
 
 struct LightSource {
     std::string label;  // 'lamp', as the scene's author calls it, or an index
@@ -140,7 +140,7 @@ struct Scene {
     std::vector<Object> objects;
     std::optional<Animation> animation{};  // of which this is one frame
 
-    friend CANDELA_API bool operator==(const Scene& a, const Scene& b);
+    friend CANDELA_EXPORT bool operator==(const Scene& a, const Scene& b);
 };
 
 /// The part of a scene that was understood, so that the rest can be checked as well.

@@ -1,7 +1,7 @@
 // A scene: read from files, validated, immutable.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <filesystem>
 #include <map>
@@ -26,10 +26,10 @@ export namespace candela {
 
 /// All files that a scene consists of or names: its own, its includes, its environment, and every parameter
 /// that is a file. Absolute paths.
-CANDELA_API std::vector<std::filesystem::path> input_files(const SceneDraft& draft);
+CANDELA_EXPORT std::vector<std::filesystem::path> input_files(const SceneDraft& draft);
 
 /// The frames of a scene; one that is not animated has one. One thread.
-class CANDELA_API SceneFrames {
+class CANDELA_EXPORT SceneFrames {
   public:
     /// Reads and merges the files, and reads and validates what is animated. Reports all problems; returns
     /// nothing if a file cannot be read as TOML. `registry` must outlive the frames.
@@ -56,30 +56,30 @@ class CANDELA_API SceneFrames {
 
 /// Reads, merges and validates the requested frame. Reports all problems; returns nothing if a file cannot be
 /// read as TOML. Throws Error (bad_request) if there is no such frame.
-CANDELA_API std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
-                                                  Diagnostics& diagnostics);
+CANDELA_EXPORT std::optional<SceneDraft> draft_scene(const SceneRequest& request, Registry& registry,
+                                                     Diagnostics& diagnostics);
 
 /// Like draft_scene(), but returns the scene only if there was nothing worse than warnings.
-CANDELA_API std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry,
-                                            Diagnostics& diagnostics);
+CANDELA_EXPORT std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry,
+                                               Diagnostics& diagnostics);
 
 /// A scene as one file, which reads back as the same scene: all defaults filled in, absolute paths. Throws
 /// Error (failure) if the format cannot express a scene that did not come from a file: texts that are not
 /// UTF-8, fractional colours, labels that are not quoted names, shading parameters that differ between
 /// objects.
-CANDELA_API std::string scene_text(const Scene& scene);
+CANDELA_EXPORT std::string scene_text(const Scene& scene);
 
 /// The texts of those files of a scene that `changes` modify, with the changes applied: values are replaced
 /// in place or added to their tables; comments, order and everything else stay. The files are not touched.
 /// Reports what is wrong with the scene or the changes, and then returns nothing. Throws Error (bad_request)
 /// if the changed files would yield a different scene than `request` with `changes` in its settings, for
 /// example because a setting or an object's own model prevails.
-CANDELA_API std::vector<TextChange> edited_files(const SceneRequest& request,
-                                                 const std::vector<Setting>& changes, Registry& registry,
-                                                 Diagnostics& diagnostics);
+CANDELA_EXPORT std::vector<TextChange> edited_files(const SceneRequest& request,
+                                                    const std::vector<Setting>& changes, Registry& registry,
+                                                    Diagnostics& diagnostics);
 
 /// The built-in scene: one cube, one point light in the centre of the room, Phong shading, Phong reflection
 /// (R12, R14).
-CANDELA_API std::string_view default_scene_text() noexcept;
+CANDELA_EXPORT std::string_view default_scene_text() noexcept;
 
 }  // namespace candela

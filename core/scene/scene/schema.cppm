@@ -1,7 +1,7 @@
 // The allowed contents of a scene file's tables.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <optional>
 #include <span>
@@ -38,9 +38,9 @@ struct TableSchema {
 };
 
 /// The tables of the scene file, in the order in which people write them.
-CANDELA_API std::span<const TableSchema> scene_schema();
+CANDELA_EXPORT std::span<const TableSchema> scene_schema();
 
 /// The keys before all tables; its name is empty.
-CANDELA_API const TableSchema& top_schema();
+CANDELA_EXPORT const TableSchema& top_schema();
 
 }  // namespace candela

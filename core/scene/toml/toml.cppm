@@ -1,7 +1,7 @@
 // TOML as a tree of plain values, each with its position in its file.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -53,7 +53,7 @@ struct TableNode::Entry {
 };
 
 /// A value described for people: `a string, "red"`, "the number 0.5", "a table".
-CANDELA_API std::string description(const Node& node);
+CANDELA_EXPORT std::string description(const Node& node);
 
 /// Limits on the files of one scene together: far more than anybody writes, but a file named by mistake may
 /// be anything, and a tree of values takes a hundred times the memory of its text.
@@ -68,35 +68,35 @@ struct ReadingLimits {
 /// Reads and parses a file. Reports problems (R11: each way of being unreadable has its own message) and then
 /// returns nothing. `shown_name` is the file's name in diagnostics. A file that exceeds `left` is refused;
 /// otherwise its size is subtracted.
-CANDELA_API std::optional<TableNode> read_document(const std::filesystem::path& file,
-                                                   const std::string& shown_name, ReadingLimits& left,
-                                                   Diagnostics& diagnostics);
+CANDELA_EXPORT std::optional<TableNode> read_document(const std::filesystem::path& file,
+                                                      const std::string& shown_name, ReadingLimits& left,
+                                                      Diagnostics& diagnostics);
 
 /// Like the above, for bytes that did not come from a file but, for example, a pipe.
-CANDELA_API std::optional<TableNode> read_document(std::string bytes, const std::string& shown_name,
-                                                   ReadingLimits& left, Diagnostics& diagnostics);
+CANDELA_EXPORT std::optional<TableNode> read_document(std::string bytes, const std::string& shown_name,
+                                                      ReadingLimits& left, Diagnostics& diagnostics);
 
 /// A value that is on one line, as its author wrote it: "255.0", "1e3"; empty if its text is not available.
-CANDELA_API std::string as_written(const Node& node, const Diagnostics& diagnostics);
+CANDELA_EXPORT std::string as_written(const Node& node, const Diagnostics& diagnostics);
 
 /// "did you mean 'scene.toml'?", from the names of files in the folder of `missing`; or empty.
-CANDELA_API std::string file_suggestion(const std::filesystem::path& missing);
+CANDELA_EXPORT std::string file_suggestion(const std::filesystem::path& missing);
 
-CANDELA_API std::optional<TableNode> parse_document(std::string_view text, const std::string& shown_name,
-                                                    Diagnostics& diagnostics);
+CANDELA_EXPORT std::optional<TableNode> parse_document(std::string_view text, const std::string& shown_name,
+                                                       Diagnostics& diagnostics);
 
 /// Parses a value as written after a `=`; bare words are strings. Reports problems at `place`.
-CANDELA_API std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
-                                            Diagnostics& diagnostics);
+CANDELA_EXPORT std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
+                                               Diagnostics& diagnostics);
 
 /// Values as TOML: a string in double quotes, with escapes (throws Error if it is not UTF-8); a number in as
 /// few digits as read back as the same number (throws Error if it is not finite); a key, quoted if necessary.
-CANDELA_API std::string toml_text(std::string_view text);
-CANDELA_API std::string toml_text(double x);
-CANDELA_API std::string toml_text(float x);
-CANDELA_API std::string toml_key(std::string_view key);
+CANDELA_EXPORT std::string toml_text(std::string_view text);
+CANDELA_EXPORT std::string toml_text(double x);
+CANDELA_EXPORT std::string toml_text(float x);
+CANDELA_EXPORT std::string toml_key(std::string_view key);
 /// Any value, on one line.
-CANDELA_API std::string toml_text(const Node& node);
+CANDELA_EXPORT std::string toml_text(const Node& node);
 
 /// A part of a text, and its replacement.
 struct TextEdit {
@@ -105,7 +105,7 @@ struct TextEdit {
 };
 
 /// The text that a document was parsed from, for editing.
-class CANDELA_API SourceText {
+class CANDELA_EXPORT SourceText {
   public:
     explicit SourceText(std::string text);
 
@@ -123,21 +123,21 @@ class CANDELA_API SourceText {
 
 /// Whether a table has its own header or braces, instead of being made by dotted keys in the lines of
 /// another.
-CANDELA_API bool has_lines_of_its_own(const SourceText& text, const Node& table);
+CANDELA_EXPORT bool has_lines_of_its_own(const SourceText& text, const Node& table);
 
-CANDELA_API TextEdit replacement(const SourceText& text, const Node& value, const std::string& by);
+CANDELA_EXPORT TextEdit replacement(const SourceText& text, const Node& value, const std::string& by);
 
 /// Keys, which may be dotted, and values as TOML.
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
 /// Adds entries after the last one of a table, or of the document, which has no header.
-CANDELA_API TextEdit insertion(const SourceText& text, const TableNode& table, const SourcePlace* header,
-                               const Entries& entries);
+CANDELA_EXPORT TextEdit insertion(const SourceText& text, const TableNode& table, const SourcePlace* header,
+                                  const Entries& entries);
 
 /// Adds a table at the end.
-CANDELA_API TextEdit new_table(const SourceText& text, const std::string& name, const Entries& entries);
+CANDELA_EXPORT TextEdit new_table(const SourceText& text, const std::string& name, const Entries& entries);
 
 /// Applies edits; those at one offset in their order. Throws Error (bad_request) if two overlap.
-CANDELA_API std::string edited(std::string_view text, const std::vector<TextEdit>& edits);
+CANDELA_EXPORT std::string edited(std::string_view text, const std::vector<TextEdit>& edits);
 
 }  // namespace candela

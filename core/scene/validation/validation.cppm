@@ -1,7 +1,7 @@
 // Validates a table against a schema: types, ranges, unknown and missing keys.
 module;
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #include <functional>
 #include <optional>
@@ -31,30 +31,30 @@ struct TableContext {
 /// The values of the keys in `schema`, with its defaults for missing ones. Reports wrong types, values out of
 /// range and missing required keys; those keep their default, or no value. Keys that are not in the schema
 /// are ignored. Paths become absolute, relative to the file that contains them.
-CANDELA_API ParamSet read_parameters(const TableNode& table, SharedSchema schema, const TableContext& context,
-                                     Diagnostics& diagnostics);
+CANDELA_EXPORT ParamSet read_parameters(const TableNode& table, SharedSchema schema,
+                                        const TableContext& context, Diagnostics& diagnostics);
 /// Like the above, for a schema that is not shared.
-CANDELA_API ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema,
-                                     const TableContext& context, Diagnostics& diagnostics);
+CANDELA_EXPORT ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema,
+                                        const TableContext& context, Diagnostics& diagnostics);
 
 /// Whether `table` gives the parameter a valid value, or leaves it at its default.
-CANDELA_API bool is_valid(const TableNode& table, const Parameter& parameter);
+CANDELA_EXPORT bool is_valid(const TableNode& table, const Parameter& parameter);
 
 /// Reports every key that is not among `known`, with a suggestion.
-CANDELA_API void report_unknown_keys(const TableNode& table, std::span<const std::string> known,
-                                     const TableContext& context, Diagnostics& diagnostics);
+CANDELA_EXPORT void report_unknown_keys(const TableNode& table, std::span<const std::string> known,
+                                        const TableContext& context, Diagnostics& diagnostics);
 
 /// Reports violated relations, at the position of one of the two parameters.
-CANDELA_API void check_relations(const TableNode& table, const ParamSet& values,
-                                 std::span<const Relation> relations, const TableContext& context,
-                                 Diagnostics& diagnostics);
+CANDELA_EXPORT void check_relations(const TableNode& table, const ParamSet& values,
+                                    std::span<const Relation> relations, const TableContext& context,
+                                    Diagnostics& diagnostics);
 
 /// `node` as a valid value of the parameter; the path of a file becomes absolute. Reports what is wrong.
-CANDELA_API std::optional<Value> valid_value(const Node& node, const Parameter& parameter,
-                                             Diagnostics& diagnostics);
+CANDELA_EXPORT std::optional<Value> valid_value(const Node& node, const Parameter& parameter,
+                                                Diagnostics& diagnostics);
 
 /// `node` as a value of the parameter's type, without checking its range. Reports a type mismatch.
-CANDELA_API std::optional<Value> typed_value(const Node& node, const Parameter& parameter,
-                                             Diagnostics& diagnostics);
+CANDELA_EXPORT std::optional<Value> typed_value(const Node& node, const Parameter& parameter,
+                                                Diagnostics& diagnostics);
 
 }  // namespace candela

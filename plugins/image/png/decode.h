@@ -1,6 +1,6 @@
 #pragma once
 
-#include "candela/image.h"
+#include "candela/image_format.h"
 
 /// Reads a PNG file of any kind with libpng: its first three channels, or its grey channel. Applies neither
 /// gamma nor transparency. Throws std::runtime_error.

@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 
 namespace {
 

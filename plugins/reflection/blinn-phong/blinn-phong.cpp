@@ -1,4 +1,4 @@
-#include "candela/materials.h"
+#include "candela/material_presets.h"
 #include "candela/reflection_plugin.h"
 
 namespace candela::kernel {

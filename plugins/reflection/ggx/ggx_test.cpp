@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "candela/kernel.h"
+#include "candela/kernel/kernel.h"
 #include "support/microfacets.h"
 #include "support/plugins.h"
 #include "support/samples.h"

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "candela/image.h"
-#include "candela/picture_rows.h"
+#include "candela/image_format.h"
 #include "candela/plugin.h"
+#include "candela/scanline_image.h"
 
 namespace candela::sdk {
 

@@ -24,8 +24,8 @@
 // The conformance kit checks them against the kernel functions.
 #pragma once
 
+#include "candela/kernel/simd_dispatch.h"
 #include "candela/light.h"
-#include "candela/multiversion.h"
 #include "candela/plugin.h"
 #include "candela/punctual.h"
 

@@ -18,12 +18,13 @@
 #include <utility>
 #include <vector>
 
-#include "candela/abi.h"
-#include "candela/batch.h"
 #include "candela/color.h"
-#include "candela/descriptor.h"
-#include "candela/kernel.h"
+#include "candela/kernel/batch.h"
+#include "candela/kernel/kernel.h"
 #include "candela/math.h"
+#include "candela/plugin/abi.h"
+#include "candela/plugin/descriptor.h"
+#include "candela/plugin/export.h"
 
 namespace candela::sdk {
 
@@ -396,8 +397,6 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 }
 
 }  // namespace candela::sdk
-
-#define CANDELA_EXPORT __attribute__((visibility("default")))
 
 /// Exports a plugin of `kind_` whose instances are created by `new Model(params)`, with `params` filled
 /// according to `fields_`, an array of candela::sdk::Field. The other arguments initialise a

@@ -20,11 +20,11 @@
 #include <utility>
 #include <vector>
 
-#include "candela/image.h"
-#include "candela/instances.h"
+#include "candela/image_format.h"
 #include "candela/light.h"
-#include "candela/reflection.h"
-#include "candela/shading.h"
+#include "candela/plugin/instances.h"
+#include "candela/reflection_model.h"
+#include "candela/shading_model.h"
 #include "candela/shape.h"
 #include "candela/target.h"
 

@@ -6,9 +6,9 @@
 // They return the factors for a light's intensities and for the ambient intensity.
 #pragma once
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 #include "candela/plugin.h"
-#include "candela/reflection.h"
+#include "candela/reflection_model.h"
 
 namespace candela::sdk {
 

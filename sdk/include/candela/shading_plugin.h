@@ -27,9 +27,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 #include "candela/plugin.h"
-#include "candela/shading.h"
+#include "candela/shading_model.h"
 
 namespace candela::sdk {
 

@@ -17,7 +17,7 @@
 #include <cstdint>
 #include <span>
 
-#include "candela/multiversion.h"
+#include "candela/kernel/simd_dispatch.h"
 #include "candela/plugin.h"
 #include "candela/shape.h"
 

@@ -4,7 +4,7 @@
 #include <exception>
 #include <memory>
 
-#include "candela/reflection.h"
+#include "candela/reflection_model.h"
 
 import candela.core;
 

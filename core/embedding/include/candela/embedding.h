@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 namespace candela::embedding {
 
@@ -28,7 +28,7 @@ struct Problem {
 
 /// Why there is no scene or no picture. `what()` has all problems, one per line, as "file:line:column: error:
 /// …".
-class CANDELA_API Error : public std::runtime_error {
+class CANDELA_EXPORT Error : public std::runtime_error {
   public:
     explicit Error(const std::string& message, std::vector<Problem> problems = {});
     ~Error() override;
@@ -62,7 +62,7 @@ struct Options {
 
 /// A scene, read and checked, with its triangles. Render it as often as you like, with changes between
 /// pictures. Owns everything it needs. One thread at a time; different scenes at the same time.
-class CANDELA_API Scene {
+class CANDELA_EXPORT Scene {
   public:
     /// One scene file, or several that are merged; none: the default scene. Throws Error.
     explicit Scene(const std::vector<std::filesystem::path>& files, Options options = {});

@@ -55,9 +55,9 @@ Kernel read_kernel(const Source& kernel, const std::optional<Body>& body = std::
 /// The language in which a kernel is emitted.
 enum class Emission : std::uint8_t {
     kernel,  ///< the kernel language again, which is C++ and GLSL
-    /// C++ for the inside of `namespace candela::kernel`, after "candela/kernel.h": computes the same values,
-    /// and defined ones even if the language leaves a value open, such as a quotient by zero. Compile it with
-    /// -fwrapv.
+    /// C++ for the inside of `namespace candela::kernel`, after "candela/kernel/kernel.h": computes the same
+    /// values, and defined ones even if the language leaves a value open, such as a quotient by zero. Compile
+    /// it with -fwrapv.
     guarded_cpp
 };
 

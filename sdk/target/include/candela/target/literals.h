@@ -9,7 +9,7 @@
 
 #include "candela/color.h"
 #include "candela/math.h"
-#include "candela/params.h"
+#include "candela/plugin/params.h"
 
 namespace candela::target {
 

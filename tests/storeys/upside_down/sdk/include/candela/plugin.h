@@ -1,4 +1,4 @@
 #pragma once
 
-#include "candela/kernel.h"
+#include "candela/kernel/kernel.h"
 #include "candela/light.h"

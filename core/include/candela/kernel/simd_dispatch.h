@@ -24,7 +24,7 @@
 // be unrolled before it can be vectorised, or run as a few iterations of narrower vectors.
 #pragma once
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 #define CANDELA_BATCH_LOOP [[gnu::always_inline]]
 
@@ -54,7 +54,7 @@ namespace candela {
 
 /// candela::instruction_set() as a number, for headers, which cannot import modules: 0 baseline, 1 AVX2, 2
 /// AVX-512.
-CANDELA_API int instruction_set_level() noexcept;
+CANDELA_EXPORT int instruction_set_level() noexcept;
 
 /// The versions of one loop. Not inlined, so that each can be found by name in a profile and in the
 /// compiler's optimisation records.

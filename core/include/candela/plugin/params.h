@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 namespace candela {
 
@@ -38,7 +38,7 @@ enum class ParamType : int {
 };
 
 /// "real", "integer", ...
-CANDELA_API std::string_view name_of(ParamType type) noexcept;
+CANDELA_EXPORT std::string_view name_of(ParamType type) noexcept;
 
 /// A value as a plugin receives it; the type determines which member counts. Angles (unit "deg") are in
 /// radians.

@@ -1,8 +1,8 @@
 // Colours, and their encoding in scenes and pictures.
 #pragma once
 
-#include "candela/api.h"
 #include "candela/math.h"
+#include "candela/plugin/export.h"
 
 namespace candela {
 
@@ -31,10 +31,10 @@ enum class PixelType : int {
 };
 
 /// The sRGB transfer functions (IEC 61966-2-1:1999): encoded to linear and back, per channel, 0 to 1.
-CANDELA_API float srgb_to_linear(float encoded) noexcept;
-CANDELA_API float linear_to_srgb(float linear) noexcept;
+CANDELA_EXPORT float srgb_to_linear(float encoded) noexcept;
+CANDELA_EXPORT float linear_to_srgb(float linear) noexcept;
 
 /// A scene colour 0-255 as intensities 0 to 1; 256 counts as 255.
-CANDELA_API Rgb decoded(Vec3 color, ColorEncoding encoding) noexcept;
+CANDELA_EXPORT Rgb decoded(Vec3 color, ColorEncoding encoding) noexcept;
 
 }  // namespace candela

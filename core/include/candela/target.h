@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <span>
 
-#include "candela/api.h"
-#include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/plugin/descriptor.h"
+#include "candela/plugin/export.h"
 #include "candela/punctual.h"
-#include "candela/shading.h"
+#include "candela/shading_model.h"
 #include "candela/transform.h"
 
 namespace candela {
@@ -131,7 +131,7 @@ struct ExportedMesh {
 };
 
 /// Makes the triangles of a scene's objects on request. Owned by the host. One thread at a time.
-class CANDELA_API ExportedGeometry {
+class CANDELA_EXPORT ExportedGeometry {
   public:
     virtual ~ExportedGeometry();
 
@@ -169,7 +169,7 @@ struct ExportedScene {
 
 /// Receives a target's files. Owned by the host, which writes each file whole, and none of them if write()
 /// throws.
-class CANDELA_API FileSink {
+class CANDELA_EXPORT FileSink {
   public:
     virtual ~FileSink();
     /// `name` is relative to the program's folder ("shaders/lit.glsl"), without ".."; each is written once.
@@ -192,7 +192,7 @@ struct ProgramResult {
 };
 
 /// Runs programs of this machine, without a shell. Owned by the host. One thread at a time.
-class CANDELA_API ProgramRunner {
+class CANDELA_EXPORT ProgramRunner {
   public:
     virtual ~ProgramRunner();
     /// Whether PATH has an executable of that name.
@@ -216,7 +216,7 @@ struct TargetAbilities {
 };
 
 /// Turns a scene into something else: a program, a page, a file. Any thread.
-class CANDELA_API Target : public Instance {
+class CANDELA_EXPORT Target : public Instance {
   public:
     ~Target() override;
 

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <iterator>
 
-#include "candela/params.h"
+#include "candela/plugin/params.h"
 
 namespace candela::sdk {
 

@@ -2,7 +2,7 @@
 // GLSL.
 #pragma once
 
-#include "candela/swizzles.h"
+#include "candela/kernel/swizzles.h"
 
 namespace candela::kernel {
 

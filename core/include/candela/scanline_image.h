@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <span>
 
-#include "candela/api.h"
-#include "candela/image.h"
+#include "candela/image_format.h"
+#include "candela/plugin/export.h"
 
 namespace candela {
 
 /// A picture whose rows are made on request, from the top. Owned by the host.
-class CANDELA_API PictureRows {
+class CANDELA_EXPORT PictureRows {
   public:
     virtual ~PictureRows();
     /// Returns the next `count` rows (at least 1), or those that are left, as a picture of that height. Valid
@@ -20,7 +20,7 @@ class CANDELA_API PictureRows {
 };
 
 /// Rows of a picture that is in memory.
-class CANDELA_API ViewedRows final : public PictureRows {
+class CANDELA_EXPORT ViewedRows final : public PictureRows {
   public:
     /// The pixels must outlive this.
     explicit ViewedRows(const PictureView& picture);
@@ -33,7 +33,7 @@ class CANDELA_API ViewedRows final : public PictureRows {
 };
 
 /// A ByteSink whose file may be written in any order, for formats whose beginning depends on their end.
-class CANDELA_API RandomAccessSink : public ByteSink {
+class CANDELA_EXPORT RandomAccessSink : public ByteSink {
   public:
     ~RandomAccessSink() override;
     /// `offset`: from the beginning of the file. May throw.
@@ -42,7 +42,7 @@ class CANDELA_API RandomAccessSink : public ByteSink {
 
 /// Writes one or more formats row by row. The class that implements ImageFormat may derive from it; the host
 /// finds out with a dynamic_cast. Any thread.
-class CANDELA_API RowFormat {
+class CANDELA_EXPORT RowFormat {
   public:
     virtual ~RowFormat();
 

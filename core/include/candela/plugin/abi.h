@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <string_view>
 
-#include "candela/api.h"
-#include "candela/descriptor.h"
+#include "candela/plugin/descriptor.h"
+#include "candela/plugin/export.h"
 
 // Raised whenever an interface class, a struct that crosses the boundary, or the descriptor changes.
 #define CANDELA_INTERFACE_VERSION 3

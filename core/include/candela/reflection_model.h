@@ -3,10 +3,10 @@
 
 #include <cstddef>
 
-#include "candela/api.h"
 #include "candela/color.h"
-#include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/plugin/descriptor.h"
+#include "candela/plugin/export.h"
 #include "candela/punctual.h"
 
 namespace candela {
@@ -48,7 +48,7 @@ struct ExitBatch {
 
 /// The world around an object. Light stays local (CA AS2): other objects are not seen. Owned by the host;
 /// used for one batch, by one thread.
-class CANDELA_API Surroundings {
+class CANDELA_EXPORT Surroundings {
   public:
     virtual ~Surroundings();
 
@@ -69,7 +69,7 @@ class CANDELA_API Surroundings {
 /// A reflection model with one set of parameters: a material. Any thread, any batch size from 1; arrays have
 /// `count` elements, and nothing outside them may be read or written; they may be unaligned and do not alias.
 /// Results are finite and, unless the model declares otherwise, non-negative.
-class CANDELA_API ReflectionModel : public Instance {
+class CANDELA_EXPORT ReflectionModel : public Instance {
   public:
     ~ReflectionModel() override;
 

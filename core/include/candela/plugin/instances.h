@@ -9,9 +9,9 @@
 #include <string_view>
 #include <variant>
 
-#include "candela/api.h"
-#include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/plugin/descriptor.h"
+#include "candela/plugin/export.h"
 
 namespace candela {
 
@@ -24,8 +24,8 @@ struct ParamSetting {
 /// Creates an instance of the plugin in `directory`, which must contain both its library and its manifest.
 /// Parameters not among `settings` have their defaults. Throws std::exception with the message that a user
 /// would see.
-CANDELA_API std::unique_ptr<Instance> make_instance(std::string_view directory, PluginKind kind,
-                                                    std::string_view name,
-                                                    std::span<const ParamSetting> settings);
+CANDELA_EXPORT std::unique_ptr<Instance> make_instance(std::string_view directory, PluginKind kind,
+                                                       std::string_view name,
+                                                       std::span<const ParamSetting> settings);
 
 }  // namespace candela

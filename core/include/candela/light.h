@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-#include "candela/api.h"
-#include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/plugin/descriptor.h"
+#include "candela/plugin/export.h"
 #include "candela/punctual.h"
 
 namespace candela {
@@ -28,7 +28,7 @@ struct IncidentBatch {
 /// A light. Any thread, any batch size from 1; arrays have `count` elements, and nothing outside them may be
 /// read or written; they may be unaligned and do not alias. All intensities are >= 0 and finite, even where a
 /// receiver coincides with the light.
-class CANDELA_API Light : public Instance {
+class CANDELA_EXPORT Light : public Instance {
   public:
     ~Light() override;
 

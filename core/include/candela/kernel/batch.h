@@ -4,7 +4,7 @@
 // last one may be read, whatever `count` is: the renderer fills whole vectors, other callers do not.
 #pragma once
 
-#include "candela/kernel.h"
+#include "candela/kernel/kernel.h"
 
 #include <cstddef>
 

@@ -1,7 +1,7 @@
 // The vectors and matrices of the kernel language, with GLSL's operators.
 #pragma once
 
-#include "candela/swizzles.h"
+#include "candela/kernel/swizzles.h"
 
 namespace candela::kernel {
 

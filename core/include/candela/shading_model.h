@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <span>
 
-#include "candela/api.h"
-#include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/plugin/descriptor.h"
+#include "candela/plugin/export.h"
 
 namespace candela {
 
@@ -67,7 +67,7 @@ struct ShadingPointBatch {
 /// A shading model (CA: "how the normal vector is calculated for polygons in the scene"). Any thread, any
 /// batch size from 1; arrays have as many elements as there are points, vertices or triangles, and nothing
 /// outside them may be read or written; they may be unaligned and do not alias.
-class CANDELA_API ShadingModel : public Instance {
+class CANDELA_EXPORT ShadingModel : public Instance {
   public:
     ~ShadingModel() override;
 

@@ -11,7 +11,7 @@
 
 #include <cstdint>
 
-#include "candela/kernel_vectors.h"
+#include "candela/kernel/vectors.h"
 
 // A kernel function has its kind's arguments, whether or not the model uses them all.
 #pragma GCC diagnostic ignored "-Wunused-parameter"
@@ -201,8 +201,8 @@ CANDELA_KERNEL_INLINE float atan(float y, float x) {
 
 }  // namespace candela::kernel
 
-#include "candela/kernel_functions.h"
-#include "candela/kernel_table.h"
+#include "candela/kernel/functions.h"
+#include "candela/kernel/table.h"
 
 namespace candela::kernel {
 
@@ -217,6 +217,6 @@ namespace candela::kernel {
     Incident { __VA_ARGS__ }
 #endif
 
-#include "candela/prelude.kernel"
+#include "candela/kernel/prelude.kernel"
 
 }  // namespace candela::kernel

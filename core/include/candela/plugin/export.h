@@ -5,4 +5,4 @@
 #error "Candela's headers are C++20: compile with -std=c++20 or newer"
 #endif
 
-#define CANDELA_API __attribute__((visibility("default")))
+#define CANDELA_EXPORT __attribute__((visibility("default")))

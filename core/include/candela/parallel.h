@@ -5,12 +5,12 @@
 #include <limits>
 #include <type_traits>
 
-#include "candela/api.h"
+#include "candela/plugin/export.h"
 
 namespace candela {
 
 /// The number of processors this process may use.
-CANDELA_API int available_threads() noexcept;
+CANDELA_EXPORT int available_threads() noexcept;
 
 /// Refers to a callable without copying it; valid only during the call it is passed to.
 template <class... Arguments>
@@ -33,13 +33,13 @@ class FunctionRef {
 /// Runs `work` with `threads` threads available to every parallel_for() within it. 0 means all available
 /// threads; but if the other threads have not been started yet, and `milliseconds`, the estimated
 /// single-threaded time of the work, does not justify starting them, only this one.
-CANDELA_API void with_threads(int threads, FunctionRef<> work,
-                              double milliseconds = std::numeric_limits<double>::infinity());
+CANDELA_EXPORT void with_threads(int threads, FunctionRef<> work,
+                                 double milliseconds = std::numeric_limits<double>::infinity());
 
 /// Calls `body(begin, end)` for ranges that partition [0, count), each of at least `grain` elements except
 /// the last. An exception ends the work and is rethrown here. If the work fits into one grain, or only one
 /// thread is available, no other thread is started.
-CANDELA_API void parallel_for(std::size_t count, std::size_t grain,
-                              FunctionRef<std::size_t, std::size_t> body);
+CANDELA_EXPORT void parallel_for(std::size_t count, std::size_t grain,
+                                 FunctionRef<std::size_t, std::size_t> body);
 
 }  // namespace candela

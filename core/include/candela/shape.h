@@ -7,10 +7,10 @@
 #include <string_view>
 #include <vector>
 
-#include "candela/api.h"
 #include "candela/color.h"
-#include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/plugin/descriptor.h"
+#include "candela/plugin/export.h"
 
 namespace candela {
 
@@ -67,7 +67,7 @@ struct MeshSpans {
 };
 
 /// Receives a shape's triangles. Owned by the host; used only during tessellate().
-class CANDELA_API MeshSink {
+class CANDELA_EXPORT MeshSink {
   public:
     virtual ~MeshSink();
     /// Must be called exactly once. May throw std::bad_alloc.
@@ -81,7 +81,7 @@ class CANDELA_API MeshSink {
 };
 
 /// A shape with one set of parameters. Any thread.
-class CANDELA_API Shape : public Instance {
+class CANDELA_EXPORT Shape : public Instance {
   public:
     ~Shape() override;
 
@@ -91,6 +91,6 @@ class CANDELA_API Shape : public Instance {
 };
 
 /// For each vertex, the first one at the same position, compared bit by bit (-0 equals 0).
-CANDELA_API std::vector<std::uint32_t> welded(ConstVec3Span position, std::size_t count);
+CANDELA_EXPORT std::vector<std::uint32_t> welded(ConstVec3Span position, std::size_t count);
 
 }  // namespace candela

@@ -2,7 +2,7 @@
 // Included by kernel.h, which has the scalar functions.
 #pragma once
 
-#include "candela/kernel_vectors.h"
+#include "candela/kernel/vectors.h"
 
 namespace candela::kernel {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "candela/api.h"
-#include "candela/descriptor.h"
 #include "candela/math.h"
+#include "candela/plugin/descriptor.h"
+#include "candela/plugin/export.h"
 
 namespace candela {
 
@@ -29,7 +29,7 @@ struct PictureChannel {
 
 /// Receives the bytes of the file that an image plugin writes, in order. Owned by the host, which writes the
 /// file atomically.
-class CANDELA_API ByteSink {
+class CANDELA_EXPORT ByteSink {
   public:
     virtual ~ByteSink();
     /// May throw, for instance when the disk is full.
@@ -37,7 +37,7 @@ class CANDELA_API ByteSink {
 };
 
 /// Receives the picture that an image plugin reads. Owned by the host.
-class CANDELA_API PictureSink {
+class CANDELA_EXPORT PictureSink {
   public:
     virtual ~PictureSink();
     /// Returns memory for the picture: red, green, blue interleaved, rows from the top, no padding.
@@ -50,7 +50,7 @@ class CANDELA_API PictureSink {
 };
 
 /// Writes, and optionally reads, one or more file formats. Any thread.
-class CANDELA_API ImageFormat : public Instance {
+class CANDELA_EXPORT ImageFormat : public Instance {
   public:
     ~ImageFormat() override;
 

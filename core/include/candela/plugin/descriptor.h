@@ -7,9 +7,9 @@
 #include <span>
 #include <string_view>
 
-#include "candela/api.h"
 #include "candela/color.h"
-#include "candela/params.h"
+#include "candela/plugin/export.h"
+#include "candela/plugin/params.h"
 
 namespace candela {
 
@@ -18,13 +18,13 @@ enum class PluginKind : int { light, reflection, shading, shape, image, target }
 inline constexpr std::array k_plugin_kinds = {PluginKind::light, PluginKind::reflection, PluginKind::shading,
                                               PluginKind::shape, PluginKind::image,      PluginKind::target};
 
-CANDELA_API std::string_view name_of(PluginKind kind) noexcept;
-CANDELA_API std::optional<PluginKind> plugin_kind_named(std::string_view name) noexcept;
+CANDELA_EXPORT std::string_view name_of(PluginKind kind) noexcept;
+CANDELA_EXPORT std::optional<PluginKind> plugin_kind_named(std::string_view name) noexcept;
 
 /// One set of parameter values of a plugin: a light, a material, a shape. Created by the plugin and owned by
 /// the host, which deletes it. Immutable after construction: every member function of the kinds is const and
 /// may be called from many threads at once.
-class CANDELA_API Instance {
+class CANDELA_EXPORT Instance {
   public:
     Instance() = default;
     Instance(const Instance&) = delete;
