@@ -17,8 +17,7 @@
 #include "console/wrapping.h"
 #include "jobs/heartbeat.h"
 
-import candela.simd;
-import candela.text;
+import candela.util;
 
 namespace {
 

@@ -17,9 +17,7 @@
 
 #include "compare/differences.h"
 
-import candela.files;
-import candela.memory;
-import candela.text;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

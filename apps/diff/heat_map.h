@@ -5,8 +5,7 @@
 
 #include "compare/picture.h"
 
-import candela.diagnostics;
-import candela.files;
+import candela.util;
 
 /// Throws candela::Error (usage) if the extension of `file` is not a format for heat-maps.
 void require_heat_map_format(const std::filesystem::path& file);

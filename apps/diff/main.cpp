@@ -19,7 +19,7 @@
 #include "heat_map.h"
 #include "picture_file.h"
 
-import candela.files;
+import candela.util;
 
 namespace po = boost::program_options;
 using candela::Error;

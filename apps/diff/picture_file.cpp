@@ -19,11 +19,10 @@
 #include <utility>
 #include <vector>
 
-import candela.color;
-import candela.formats;
-import candela.memory;
-import candela.text;
-import candela.toml;
+import candela.api;
+import candela.plugins;
+import candela.scene;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

@@ -5,8 +5,8 @@
 
 #include "compare/picture.h"
 
-import candela.diagnostics;
-import candela.registry;
+import candela.plugins;
+import candela.util;
 
 /// Reads a picture of any format that OpenImageIO or, failing that, an image plugin supports. Drops alpha,
 /// and converts grey to equal red, green and blue. Throws candela::Error (failure) if the file is not a

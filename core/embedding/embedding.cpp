@@ -10,14 +10,11 @@
 #include <utility>
 #include <vector>
 
-import candela.color;
-import candela.diagnostics;
-import candela.film;
-import candela.image;
-import candela.params;
-import candela.registry;
+import candela.api;
+import candela.plugins;
 import candela.render;
 import candela.scene;
+import candela.util;
 
 namespace candela::embedding {
 

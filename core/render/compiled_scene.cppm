@@ -10,13 +10,11 @@ module;
 
 export module candela.render:compiled_scene;
 
-import candela.diagnostics;
-import candela.environment;
 import candela.geometry;
-import candela.mesh;
-import candela.registry;
+import candela.plugins;
 import candela.scene;
-import candela.shade;
+import candela.shading;
+import candela.util;
 
 export namespace candela {
 

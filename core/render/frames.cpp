@@ -15,9 +15,9 @@ module;
 
 module candela.render;
 
-import candela.diagnostics;
-import candela.registry;
+import candela.plugins;
 import candela.scene;
+import candela.util;
 
 namespace candela {
 

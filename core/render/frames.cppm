@@ -10,9 +10,9 @@ module;
 export module candela.render:frames;
 
 import :compiled_scene;
-import candela.diagnostics;
-import candela.registry;
+import candela.plugins;
 import candela.scene;
+import candela.util;
 
 export namespace candela {
 

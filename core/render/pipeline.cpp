@@ -13,16 +13,12 @@ module;
 module candela.render;
 
 import :tile;
-import candela.color;
-import candela.diagnostics;
-import candela.environment;
-import candela.film;
-import candela.mesh;
+import candela.api;
+import candela.geometry;
 import candela.raster;
 import candela.scene;
-import candela.shade;
 import candela.shading;
-import candela.transform;
+import candela.util;
 
 namespace candela {
 

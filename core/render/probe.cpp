@@ -11,15 +11,10 @@ module candela.render;
 
 import :probe;
 import :tile;
-import candela.color;
-import candela.film;
-import candela.fragments;
-import candela.image;
-import candela.mesh;
-import candela.params;
+import candela.api;
+import candela.geometry;
 import candela.raster;
 import candela.scene;
-import candela.shading;
 
 namespace candela {
 

@@ -11,8 +11,7 @@ module;
 export module candela.render:probe;
 
 import :compiled_scene;
-import candela.math;
-import candela.shade;
+import candela.api;
 import candela.shading;
 
 export namespace candela {

@@ -2,6 +2,8 @@
 export module candela.render;
 
 export import :compiled_scene;
+export import :exported_scene;
+export import :film;
 export import :frames;
 export import :probe;
 export import :rendered_rows;

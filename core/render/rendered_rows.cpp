@@ -10,8 +10,7 @@ module;
 
 module candela.render;
 
-import candela.film;
-import candela.image;
+import candela.api;
 import candela.scene;
 
 namespace candela {

@@ -11,10 +11,9 @@ module;
 export module candela.render:rendered_rows;
 
 import :compiled_scene;
+import :film;
 import :renderer;
-import candela.film;
-import candela.image;
-import candela.picture_rows;
+import candela.api;
 
 export namespace candela {
 

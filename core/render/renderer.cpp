@@ -17,14 +17,12 @@ module;
 module candela.render;
 
 import :tile;
-import candela.diagnostics;
-import candela.film;
-import candela.mesh;
-import candela.parallel;
-import candela.pool;
+import candela.api;
+import candela.geometry;
 import candela.raster;
 import candela.scene;
-import candela.shade;
+import candela.shading;
+import candela.util;
 
 namespace candela {
 

@@ -11,8 +11,8 @@ module;
 export module candela.render:renderer;
 
 import :compiled_scene;
-import candela.film;
-import candela.shade;
+import :film;
+import candela.shading;
 
 export namespace candela {
 

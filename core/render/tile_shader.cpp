@@ -17,14 +17,11 @@ module;
 module candela.render;
 
 import :tile;
-import candela.color;
-import candela.fragments;
-import candela.math;
-import candela.mesh;
-import candela.params;
+import candela.api;
+import candela.geometry;
 import candela.raster;
 import candela.scene;
-import candela.shade;
+import candela.shading;
 
 namespace candela {
 

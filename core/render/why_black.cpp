@@ -13,17 +13,11 @@ module;
 module candela.render;
 
 import :tile;
-import candela.color;
-import candela.containment;
-import candela.film;
-import candela.light;
-import candela.math;
-import candela.mesh;
-import candela.params;
+import candela.api;
+import candela.geometry;
 import candela.raster;
 import candela.scene;
-import candela.shade;
-import candela.transform;
+import candela.shading;
 
 namespace candela {
 

@@ -13,7 +13,7 @@ GROUPS = (
     ("Plugin SDK", ("sdk/include",), "The headers for writing plugins."),
     ("For exporters", ("sdk/target/include",), "Code shared by targets."),
     ("Embedding", ("core/embedding/include",), "For programs built with any C++20 compiler."),
-    ("Modules", ("core/base", "core/host", "core/scene", "core/render"), "For programs that import `candela.core`."),
+    ("Modules", ("core/util", "core/plugins", "core/scene", "core/geometry", "core/raster", "core/shading", "core/render"), "For programs that import `candela.core`."),
 )
 SETTINGS = """
 INPUT = {sources}

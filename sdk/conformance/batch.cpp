@@ -12,9 +12,7 @@
 #include <random>
 #include <span>
 
-import candela.light;
-import candela.reflection;
-import candela.shading;
+import candela.api;
 
 using candela::PluginKind;
 using candela::Vec3;

@@ -11,9 +11,8 @@
 #include "fence.h"
 #include "subject.h"
 
-import candela.guard;
-import candela.math;
-import candela.punctual;
+import candela.api;
+import candela.util;
 
 /// Arrays of equal length, with room before and after each that nobody may write to. Reading there yields
 /// NaN.

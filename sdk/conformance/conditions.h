@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-import candela.parameters;
+import candela.plugins;
 
 /// The part of a condition that concerns one parameter.
 struct Condition {

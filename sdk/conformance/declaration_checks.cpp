@@ -15,7 +15,7 @@
 #include "conditions.h"
 #include "subject.h"
 
-import candela.text;
+import candela.util;
 
 using candela::Manifest;
 using candela::PluginKind;

@@ -25,9 +25,8 @@
 #include "kernel_program.h"
 #include "subject.h"
 
-import candela.image;
-import candela.picture_rows;
-import candela.registry;
+import candela.api;
+import candela.plugins;
 
 namespace fs = std::filesystem;
 using candela::FileFormat;

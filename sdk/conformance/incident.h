@@ -1,8 +1,7 @@
 // Punctual lights in double precision.
 #pragma once
 
-import candela.math;
-import candela.punctual;
+import candela.api;
 
 /// The light that a source sends to a point: its direction, and the fraction of its intensity
 /// (candela/punctual.h).

@@ -14,9 +14,9 @@
 #include "batch.h"
 #include "kernel_program.h"
 
-import candela.mesh;
-import candela.process;
-import candela.shape;
+import candela.api;
+import candela.geometry;
+import candela.util;
 
 using candela::PluginKind;
 using candela::Vec3;

@@ -16,11 +16,8 @@
 #include <system_error>
 #include <vector>
 
-import candela.light;
-import candela.process;
-import candela.reflection;
-import candela.shading;
-import candela.shape;
+import candela.api;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Parameter;

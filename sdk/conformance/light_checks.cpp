@@ -9,7 +9,7 @@
 #include "batch.h"
 #include "incident.h"
 
-import candela.light;
+import candela.api;
 
 using candela::Vec3;
 

@@ -23,7 +23,7 @@
 #include "outcome.h"
 #include "subject.h"
 
-import candela.text;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

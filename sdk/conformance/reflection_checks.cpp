@@ -9,7 +9,7 @@
 #include "batch.h"
 #include "incident.h"
 
-import candela.reflection;
+import candela.api;
 
 using candela::ReflectionModel;
 using candela::Vec3;

@@ -14,7 +14,7 @@
 #include "batch.h"
 #include "fence.h"
 
-import candela.shading;
+import candela.api;
 
 using candela::ShadingModel;
 using candela::Vec3;

@@ -16,8 +16,8 @@
 #include "fence.h"
 #include "subject.h"
 
-import candela.mesh;
-import candela.shape;
+import candela.api;
+import candela.geometry;
 
 using candela::Mesh;
 using candela::Vec3;

@@ -15,12 +15,8 @@
 #include <stdexcept>
 #include <variant>
 
-import candela.image;
-import candela.library;
-import candela.light;
-import candela.reflection;
-import candela.shape;
-import candela.target;
+import candela.api;
+import candela.plugins;
 
 using candela::Parameter;
 using candela::ParamType;

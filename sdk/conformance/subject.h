@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-import candela.manifest;
+import candela.plugins;
 
 /// Values given by the user for parameters, by name, as written in a scene; texts and words without quotes.
 using GivenValues = std::map<std::string, std::string>;

@@ -19,11 +19,10 @@
 #include "kernel_program.h"
 #include "subject.h"
 
-import candela.diagnostics;
-import candela.exported_scene;
-import candela.files;
-import candela.registry;
+import candela.plugins;
+import candela.render;
 import candela.scene;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::ExportedFile;

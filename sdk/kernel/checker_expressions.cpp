@@ -8,7 +8,7 @@
 
 #include "checker.h"
 
-import candela.text;
+import candela.util;
 
 namespace candela::kernel_language {
 

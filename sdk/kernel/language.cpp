@@ -9,7 +9,7 @@
 #include "checker.h"
 #include "parser.h"
 
-import candela.text;
+import candela.util;
 
 CANDELA_EMBED(candela_kernel_language_prelude, CANDELA_KERNEL_PRELUDE);
 

@@ -9,7 +9,7 @@
 
 #include "candela/kernel_language/language.h"
 
-import candela.text;
+import candela.util;
 
 namespace candela::kernel_language {
 

@@ -6,7 +6,7 @@
 
 #include "tokens.h"
 
-import candela.text;
+import candela.util;
 
 namespace candela::kernel_language {
 

@@ -22,9 +22,8 @@
 #include "loops.h"
 #include "sandbox/guarded_child.h"
 
-import candela.diagnostics;
-import candela.library;
-import candela.registry;
+import candela.plugins;
+import candela.util;
 
 namespace {
 

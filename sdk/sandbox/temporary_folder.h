@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-import candela.diagnostics;
+import candela.util;
 
 /// A new folder that only its owner may enter. It is removed with its contents on destruction, or when a
 /// signal ends the process.

@@ -65,7 +65,7 @@ CANDELA_EXPORT int players(const std::vector<Horn*>& horns);
 class CppReference(unittest.TestCase):
     def reference(self):
         root = Path(self.enterContext(tempfile.TemporaryDirectory()))
-        for path, text in (("core/include/candela/horn.h", HEADER), ("core/base/orchestra/orchestra.cppm", MODULE)):
+        for path, text in (("core/include/candela/horn.h", HEADER), ("core/util/orchestra.cppm", MODULE)):
             (root / path).parent.mkdir(parents=True)
             (root / path).write_text(text)
         navigation = Reference(root, root / "pages", root / "scratch").write()

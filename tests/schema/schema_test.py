@@ -257,7 +257,7 @@ class Schema(unittest.TestCase):
 
     def test_documentation(self):
         validator = validator_of()
-        source = (SOURCE / "core/scene/scene/default_scene.cpp").read_text()
+        source = (SOURCE / "core/scene/default_scene.cpp").read_text()
         scenes = {"the default scene": re.search(r'R"\((.*?)\)"', source, re.S).group(1)}
         for file in sorted((SOURCE / "docs/examples").glob("*.toml")):
             scenes[file.name] = file.read_text()

@@ -10,7 +10,7 @@
 
 #include "plugins.h"
 
-import candela.toml;
+import candela.scene;
 
 namespace {
 

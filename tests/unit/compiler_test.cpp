@@ -5,7 +5,7 @@
 
 #include "support/command.h"
 
-import candela.process;
+import candela.util;
 
 namespace fs = std::filesystem;
 

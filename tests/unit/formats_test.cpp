@@ -4,7 +4,7 @@
 
 #include "support/command.h"
 
-import candela.formats;
+import candela.plugins;
 
 using namespace std::string_view_literals;
 

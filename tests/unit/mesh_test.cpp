@@ -12,7 +12,7 @@
 #include "support/plugins.h"
 #include "support/samples.h"
 
-import candela.parallel;
+import candela.api;
 
 using candela::Mesh;
 using candela::Shape;

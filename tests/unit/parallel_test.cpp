@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <thread>
 
+import candela.api;
 import candela.core;
-import candela.parallel;
 
 namespace {
 

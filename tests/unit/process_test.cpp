@@ -11,8 +11,7 @@
 #include <thread>
 #include <vector>
 
-import candela.diagnostics;
-import candela.process;
+import candela.util;
 
 using candela::AnsweringProgram;
 using std::chrono::milliseconds;

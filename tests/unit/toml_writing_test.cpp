@@ -13,7 +13,7 @@
 #include "console/diagnostics_text.h"
 
 import candela.core;
-import candela.toml;
+import candela.scene;
 
 namespace {
 

@@ -15,8 +15,8 @@
 #include "support/plugins.h"
 #include "support/samples.h"
 
+import candela.api;
 import candela.geometry;
-import candela.parallel;
 
 using candela::TriangleTree;
 using candela::Vec3;

@@ -3,8 +3,7 @@
 
 #include "binding.h"
 
-import candela.math;
-import candela.parallel;
+import candela.api;
 
 namespace candela::python {
 

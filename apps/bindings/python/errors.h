@@ -3,7 +3,7 @@
 
 #include "binding.h"
 
-import candela.diagnostics;
+import candela.util;
 
 namespace candela::python {
 

@@ -4,10 +4,8 @@
 #include "module.h"
 #include "values.h"
 
-import candela.descriptor;
-import candela.math;
-import candela.toml;
-import candela.validation;
+import candela.api;
+import candela.scene;
 
 namespace candela::python {
 

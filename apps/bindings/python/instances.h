@@ -4,9 +4,7 @@
 #include "binding.h"
 #include "registry.h"
 
-import candela.library;
-import candela.parameters;
-import candela.registry;
+import candela.plugins;
 
 namespace candela::python {
 

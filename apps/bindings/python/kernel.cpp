@@ -5,11 +5,8 @@
 #include "inspect/kernel_compiler.h"
 #include "module.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.library;
-import candela.manifest;
-import candela.registry;
+import candela.plugins;
+import candela.util;
 
 namespace candela::python {
 

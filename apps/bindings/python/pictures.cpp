@@ -3,9 +3,8 @@
 #include "module.h"
 #include "registry.h"
 
-import candela.color;
-import candela.image;
-import candela.library;
+import candela.api;
+import candela.plugins;
 
 namespace candela::python {
 

@@ -3,7 +3,7 @@
 
 #include "binding.h"
 
-import candela.film;
+import candela.render;
 
 namespace candela::python {
 

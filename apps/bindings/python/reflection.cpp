@@ -3,8 +3,7 @@
 #include "instances.h"
 #include "module.h"
 
-import candela.math;
-import candela.reflection;
+import candela.api;
 
 namespace candela::python {
 

@@ -2,8 +2,8 @@
 
 #include "module.h"
 
-import candela.descriptor;
-import candela.manifest;
+import candela.api;
+import candela.plugins;
 
 namespace candela::python {
 

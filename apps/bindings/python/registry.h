@@ -5,7 +5,7 @@
 
 #include "errors.h"
 
-import candela.registry;
+import candela.plugins;
 
 namespace candela::python {
 

@@ -4,9 +4,9 @@
 #include "pictures.h"
 #include "scene.h"
 
-import candela.color;
-import candela.diagnostics;
-import candela.film;
+import candela.api;
+import candela.render;
+import candela.util;
 
 namespace candela::python {
 

@@ -4,8 +4,8 @@
 #include "pictures.h"
 #include "values.h"
 
-import candela.film;
-import candela.image;
+import candela.api;
+import candela.render;
 
 namespace candela::python {
 

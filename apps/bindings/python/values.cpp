@@ -1,6 +1,6 @@
 #include "values.h"
 
-import candela.diagnostics;
+import candela.util;
 
 namespace candela::python {
 

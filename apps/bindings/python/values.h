@@ -3,7 +3,7 @@
 
 #include "binding.h"
 
-import candela.toml;
+import candela.scene;
 
 namespace candela::python {
 

@@ -25,9 +25,8 @@
 #include "import/import.h"
 #include "sandbox/temporary_folder.h"
 
-import candela.files;
-import candela.text;
-import candela.toml;
+import candela.scene;
+import candela.util;
 
 namespace po = boost::program_options;
 using candela::Error;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-import candela.diagnostics;
-import candela.registry;
+import candela.plugins;
 import candela.scene;
+import candela.util;
 
 /// A verb's options, positional arguments and help. Throws candela::Error (usage), with a suggestion, for
 /// unknown arguments.

@@ -12,9 +12,8 @@
 #include "console/reporting.h"
 #include "programs/bash_line.h"
 
-import candela.descriptor;
-import candela.diagnostics;
-import candela.text;
+import candela.api;
+import candela.util;
 
 namespace po = boost::program_options;
 using candela::PluginKind;

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-import candela.registry;
+import candela.plugins;
 import candela.scene;
 
 struct Completion {

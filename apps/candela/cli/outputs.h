@@ -7,7 +7,7 @@
 
 #include "cli/command_line.h"
 
-import candela.files;
+import candela.util;
 
 /// Adds --no-clobber.
 void add_no_clobber_option(CommandLine& line);

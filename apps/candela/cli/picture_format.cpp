@@ -6,11 +6,10 @@
 
 #include "console/reporting.h"
 
-import candela.descriptor;
-import candela.diagnostics;
-import candela.parameters;
-import candela.toml;
-import candela.validation;
+import candela.api;
+import candela.plugins;
+import candela.scene;
+import candela.util;
 
 namespace po = boost::program_options;
 using candela::Error;

@@ -7,8 +7,8 @@
 
 #include "cli/command_line.h"
 
-import candela.film;
-import candela.registry;
+import candela.plugins;
+import candela.render;
 
 /// Adds --format-set.
 void add_format_option(CommandLine& line);

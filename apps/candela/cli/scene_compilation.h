@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-import candela.diagnostics;
-import candela.registry;
+import candela.plugins;
 import candela.render;
 import candela.scene;
+import candela.util;
 
 /// candela::compile() with a progress bar if it takes long.
 std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& draft,

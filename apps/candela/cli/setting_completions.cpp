@@ -8,9 +8,9 @@
 
 #include "cli/completion.h"
 
-import candela.descriptor;
-import candela.diagnostics;
-import candela.parameters;
+import candela.api;
+import candela.plugins;
+import candela.util;
 
 using candela::Parameter;
 using candela::PluginKind;

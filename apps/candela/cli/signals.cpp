@@ -9,7 +9,7 @@
 #include "sandbox/process_tree.h"
 #include "sandbox/temporary_folder.h"
 
-import candela.files;
+import candela.util;
 
 namespace {
 

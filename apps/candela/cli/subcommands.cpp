@@ -7,8 +7,7 @@
 
 #include "console/exit_code.h"
 
-import candela.diagnostics;
-import candela.text;
+import candela.util;
 
 int run_subverb(const std::string& verb, std::span<const Verb> verbs,
                 const std::vector<std::string>& arguments) {

@@ -6,7 +6,7 @@
 #include <array>
 #include <string_view>
 
-import candela.text;
+import candela.util;
 
 namespace {
 

@@ -23,11 +23,9 @@
 #include "film/render_cache.h"
 #include "sandbox/temporary_folder.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.film;
 import candela.render;
 import candela.scene;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

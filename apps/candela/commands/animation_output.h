@@ -9,10 +9,10 @@
 #include "cli/command_line.h"
 #include "film/frame_pattern.h"
 
-import candela.diagnostics;
-import candela.film;
-import candela.registry;
+import candela.plugins;
+import candela.render;
 import candela.scene;
+import candela.util;
 
 /// The files for the frames and the films made from them.
 struct AnimationOutputs {

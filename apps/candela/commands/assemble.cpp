@@ -21,12 +21,9 @@
 #include "film/render_cache.h"
 #include "jobs/picture_parts.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.film;
-import candela.image;
-import candela.parallel;
-import candela.picture_rows;
+import candela.api;
+import candela.render;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

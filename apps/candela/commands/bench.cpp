@@ -15,9 +15,8 @@
 #include "console/terminal.h"
 #include "json/json.h"
 
-import candela.film;
 import candela.render;
-import candela.simd;
+import candela.util;
 
 namespace po = boost::program_options;
 using candela::Error;

@@ -20,7 +20,7 @@
 #include "json/json.h"
 
 import candela.render;
-import candela.text;
+import candela.util;
 
 using candela::CompiledScene;
 using candela::Diagnostics;

@@ -28,8 +28,7 @@
 #include "console/terminal.h"
 #include "json/json.h"
 
-import candela.film;
-import candela.image;
+import candela.api;
 import candela.render;
 import candela.scene;
 

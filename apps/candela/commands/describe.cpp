@@ -13,7 +13,7 @@
 #include "cli/commands.h"
 #include "console/wrapping.h"
 
-import candela.text;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

@@ -12,8 +12,8 @@
 #include "console/reporting.h"
 #include "import/import.h"
 
-import candela.files;
 import candela.render;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

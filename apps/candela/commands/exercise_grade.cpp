@@ -20,10 +20,7 @@
 #include "programs/sibling_program.h"
 #include "sandbox/temporary_folder.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.process;
-import candela.text;
+import candela.util;
 
 namespace kl = candela::kernel_language;
 namespace po = boost::program_options;

@@ -23,15 +23,10 @@
 #include "exercise/exercises.h"
 #include "plot/model_argument.h"
 
-import candela.arrays;
-import candela.color;
-import candela.diagnostics;
-import candela.exported_scene;
-import candela.files;
-import candela.math;
-import candela.parameters;
-import candela.reflection;
-import candela.text;
+import candela.api;
+import candela.plugins;
+import candela.render;
+import candela.util;
 
 namespace po = boost::program_options;
 using candela::Error;

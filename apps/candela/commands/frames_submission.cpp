@@ -12,9 +12,9 @@
 #include "film/render_cache.h"
 #include "programs/shell_words.h"
 
-import candela.diagnostics;
-import candela.film;
+import candela.render;
 import candela.scene;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

@@ -16,14 +16,9 @@
 #include "json/json.h"
 #include "verify/targets.h"
 
-import candela.color;
-import candela.files;
-import candela.light;
-import candela.reflection;
-import candela.registry;
-import candela.shading;
-import candela.shape;
-import candela.text;
+import candela.api;
+import candela.plugins;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

@@ -17,7 +17,7 @@
 #include "files/output_folder.h"
 #include "import/model_parts.h"
 
-import candela.files;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

@@ -7,9 +7,9 @@
 #include "cli/command_line.h"
 #include "jobs/submission.h"
 
-import candela.diagnostics;
-import candela.registry;
+import candela.plugins;
 import candela.scene;
+import candela.util;
 
 /// The first words of all commands of a job. `has_asked`: the user was asked for a model; a task cannot ask.
 Words common_words(const CommandLine& line, const char* verb, bool has_asked);

@@ -11,7 +11,7 @@
 #include "console/terminal.h"
 #include "console/wrapping.h"
 
-import candela.text;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

@@ -13,7 +13,7 @@
 #include "programs/shell_words.h"
 #include "templates/scene_templates.h"
 
-import candela.files;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

@@ -17,9 +17,8 @@
 #include "film/render_cache.h"
 #include "jobs/picture_parts.h"
 
-import candela.diagnostics;
-import candela.image;
-import candela.parallel;
+import candela.api;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

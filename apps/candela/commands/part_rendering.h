@@ -4,11 +4,10 @@
 #include "cli/command_line.h"
 #include "console/stopwatch.h"
 
-import candela.files;
-import candela.film;
-import candela.registry;
+import candela.plugins;
 import candela.render;
 import candela.scene;
+import candela.util;
 
 /// Whether the picture is too large to keep in memory and the format does not require that.
 bool is_streamed(const candela::ImageSettings& image, const candela::PictureFormat& format,

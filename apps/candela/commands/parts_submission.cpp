@@ -11,9 +11,9 @@
 #include "commands/job_submission.h"
 #include "jobs/picture_parts.h"
 
-import candela.diagnostics;
-import candela.film;
+import candela.render;
 import candela.scene;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

@@ -17,9 +17,8 @@
 #include "plot/lobe.h"
 #include "plot/lobe_text.h"
 
-import candela.files;
-import candela.parameters;
-import candela.text;
+import candela.plugins;
+import candela.util;
 
 namespace po = boost::program_options;
 using candela::Error;

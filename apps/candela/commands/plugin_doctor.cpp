@@ -15,8 +15,8 @@
 #include "console/exit_code.h"
 #include "sandbox/guarded_child.h"
 
-import candela.library;
-import candela.text;
+import candela.plugins;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

@@ -17,8 +17,7 @@
 #include "files/output_folder.h"
 #include "templates/plugin_project.h"
 
-import candela.files;
-import candela.text;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

@@ -21,12 +21,10 @@
 #include "console/terminal.h"
 #include "sandbox/temporary_folder.h"
 
-import candela.files;
-import candela.film;
-import candela.parallel;
+import candela.api;
 import candela.render;
 import candela.scene;
-import candela.simd;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

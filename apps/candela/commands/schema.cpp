@@ -10,7 +10,7 @@
 #include "console/reporting.h"
 
 import candela.schema;
-import candela.text;
+import candela.util;
 
 namespace po = boost::program_options;
 using candela::Error;

@@ -13,7 +13,7 @@
 #include "jobs/state.h"
 #include "json/json.h"
 
-import candela.diagnostics;
+import candela.util;
 
 using Kind = TaskState::Kind;
 

@@ -25,10 +25,8 @@
 #include "jobs/state.h"
 #include "programs/shell_words.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.parallel;
-import candela.text;
+import candela.api;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <set>
 
-import candela.diagnostics;
+import candela.util;
 
 namespace po = boost::program_options;
 using candela::Error;

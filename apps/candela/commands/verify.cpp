@@ -25,7 +25,7 @@
 #include "verify/targets.h"
 #include "verify/work_dir.h"
 
-import candela.files;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

@@ -23,7 +23,7 @@
 #include "viewer/scene_follower.h"
 #include "viewer/server.h"
 
-import candela.process;
+import candela.util;
 
 namespace po = boost::program_options;
 namespace fs = std::filesystem;

@@ -13,9 +13,8 @@
 #include <string_view>
 #include <utility>
 
-import candela.diagnostics;
-import candela.image;
-import candela.text;
+import candela.api;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

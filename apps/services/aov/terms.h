@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
-import candela.files;
-import candela.film;
-import candela.registry;
+import candela.plugins;
 import candela.render;
 import candela.scene;
-import candela.shade;
+import candela.shading;
+import candela.util;
 
 /// One requested term.
 struct NamedTerm {

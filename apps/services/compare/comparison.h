@@ -6,7 +6,7 @@
 
 #include "compare/differences.h"
 
-import candela.diagnostics;
+import candela.util;
 
 struct Comparison {
     int width = 0, height = 0;

@@ -7,8 +7,8 @@
 
 #include "compare/sheet_label.h"
 
-import candela.color;
-import candela.diagnostics;
+import candela.api;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

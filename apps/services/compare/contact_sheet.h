@@ -3,8 +3,8 @@
 
 #include <string>
 
-import candela.color;
-import candela.film;
+import candela.api;
+import candela.render;
 
 class ContactSheet {
   public:

@@ -12,7 +12,7 @@
 #include <numbers>
 #include <vector>
 
-import candela.memory;
+import candela.util;
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-import candela.text;
+import candela.util;
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <string>
 
-import candela.color;
-import candela.film;
+import candela.api;
+import candela.render;
 
 /// The size of one line of text in pixels, with letters `scale` times as large as the font's.
 struct LabelSize {

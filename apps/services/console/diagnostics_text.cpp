@@ -14,7 +14,7 @@
 #include "import/import.h"
 #include "json/json.h"
 
-import candela.text;
+import candela.util;
 
 using candela::Diagnostic;
 using candela::Help;

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-import candela.diagnostics;
+import candela.util;
 
 constexpr std::size_t k_most_diagnostics_shown = 50;
 

@@ -1,7 +1,7 @@
 // Exit codes of the command and of its companion programs.
 #pragma once
 
-import candela.diagnostics;
+import candela.util;
 
 enum class ExitCode : int { ok = 0, failure = 1, usage = 2, invalid_scene = 3, verification_failed = 4 };
 

@@ -18,7 +18,7 @@
 #include "console/sanitized_streams.h"
 #include "console/terminal.h"
 
-import candela.files;
+import candela.util;
 
 namespace {
 

@@ -7,8 +7,8 @@
 
 #include "console/exit_code.h"
 
-import candela.diagnostics;
-import candela.registry;
+import candela.plugins;
+import candela.util;
 
 /// From now on, prints only errors on stderr (--quiet).
 void be_quiet();

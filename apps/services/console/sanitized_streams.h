@@ -4,7 +4,7 @@
 #include <iosfwd>
 #include <memory>
 
-import candela.text;
+import candela.util;
 
 /// While an instance exists, everything printed through std::cout and std::cerr passes through
 /// candela::printable(): valid UTF-8 without terminal control sequences. Line breaks are kept. print_styled()

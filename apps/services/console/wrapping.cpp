@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-import candela.text;
+import candela.util;
 
 namespace {
 

@@ -11,11 +11,8 @@
 #include "candela/target/kernels.h"
 #include "json/json.h"
 
-import candela.color;
-import candela.diagnostics;
-import candela.files;
-import candela.reflection;
-import candela.text;
+import candela.api;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

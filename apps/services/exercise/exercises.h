@@ -8,8 +8,8 @@
 
 #include "candela/kernel_language/language.h"
 
-import candela.descriptor;
-import candela.registry;
+import candela.api;
+import candela.plugins;
 
 /// A kernel's text before and after a function's body: up to the opening brace, and from the closing one on.
 struct TextAroundBody {

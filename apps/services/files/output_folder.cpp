@@ -5,7 +5,7 @@
 #include <string>
 #include <system_error>
 
-import candela.files;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

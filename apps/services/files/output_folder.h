@@ -7,7 +7,7 @@
 
 #include "sandbox/temporary_folder.h"
 
-import candela.files;
+import candela.util;
 
 /// Files on their way to a folder. They are written to a temporary folder next to it and moved together once
 /// all are complete, so that a full disk or a signal leaves the folder as it was: absent, or with all of its

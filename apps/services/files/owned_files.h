@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-import candela.files;
+import candela.util;
 
 /// The text of a regular file; nothing if it cannot be read, is a link, or has more than `most` bytes.
 std::optional<std::string> read_owned_file(const std::filesystem::path& file, std::size_t most);

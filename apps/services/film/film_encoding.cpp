@@ -14,8 +14,7 @@
 #include "film/frame_pattern.h"
 #include "sandbox/temporary_folder.h"
 
-import candela.diagnostics;
-import candela.process;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

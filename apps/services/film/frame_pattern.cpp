@@ -7,7 +7,7 @@
 #include <string_view>
 #include <system_error>
 
-import candela.diagnostics;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

@@ -5,9 +5,8 @@
 
 #include "film/render_cache.h"
 
-import candela.files;
-import candela.image;
-import candela.parallel;
+import candela.api;
+import candela.util;
 
 namespace fs = std::filesystem;
 

@@ -7,8 +7,8 @@
 #include <future>
 #include <string>
 
-import candela.film;
-import candela.registry;
+import candela.plugins;
+import candela.render;
 
 /// Writes frames and their records while the next ones are rendered. Writing a small frame is mostly waiting
 /// for the disk, and several can wait at the same time. One thread.

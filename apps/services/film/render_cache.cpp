@@ -17,9 +17,8 @@
 #include "files/output_folder.h"
 #include "files/owned_files.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.parameters;
+import candela.plugins;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

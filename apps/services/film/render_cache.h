@@ -5,10 +5,10 @@
 #include <map>
 #include <string>
 
-import candela.files;
-import candela.film;
-import candela.registry;
+import candela.plugins;
+import candela.render;
 import candela.scene;
+import candela.util;
 
 /// Fingerprints of everything that determines a picture's bytes: the scene's values, the files it names, its
 /// plugins' libraries, and Candela itself. Reads libraries and files once. One thread.

@@ -16,11 +16,10 @@
 #include "import/placement.h"
 #include "import/vectors.h"
 
-import candela.diagnostics;
-import candela.mesh;
-import candela.parameters;
-import candela.shape;
-import candela.text;
+import candela.api;
+import candela.geometry;
+import candela.plugins;
+import candela.util;
 
 namespace importing {
 

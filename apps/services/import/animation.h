@@ -7,7 +7,7 @@
 #include "import/readers.h"
 #include "import/scene_text.h"
 
-import candela.registry;
+import candela.plugins;
 
 namespace importing {
 

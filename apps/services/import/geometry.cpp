@@ -14,12 +14,10 @@
 
 #include "import/vectors.h"
 
-import candela.diagnostics;
-import candela.mesh;
-import candela.parameters;
-import candela.shape;
-import candela.text;
-import candela.transform;
+import candela.api;
+import candela.geometry;
+import candela.plugins;
+import candela.util;
 
 namespace fs = std::filesystem;
 

@@ -7,8 +7,8 @@
 #include "import/framing.h"
 #include "import/readers.h"
 
-import candela.mesh;
-import candela.registry;
+import candela.geometry;
+import candela.plugins;
 
 namespace importing {
 

@@ -21,11 +21,9 @@
 #include "import/readers.h"
 #include "import/vectors.h"
 
-import candela.color;
-import candela.diagnostics;
-import candela.files;
-import candela.formats;
-import candela.text;
+import candela.api;
+import candela.plugins;
+import candela.util;
 
 namespace fs = std::filesystem;
 

@@ -8,7 +8,7 @@
 #include "import/placement.h"
 #include "import/vectors.h"
 
-import candela.diagnostics;
+import candela.util;
 
 namespace importing::gltf {
 

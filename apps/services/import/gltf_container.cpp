@@ -13,9 +13,7 @@
 #include "candela/target/literals.h"
 #include "import/readers.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.text;
+import candela.util;
 
 namespace fs = std::filesystem;
 

@@ -13,7 +13,7 @@
 #include "import/model.h"
 #include "import/readers.h"
 
-import candela.files;
+import candela.util;
 
 namespace importing::gltf {
 

@@ -8,8 +8,8 @@
 
 #include "import/readers.h"
 
-import candela.color;
-import candela.diagnostics;
+import candela.api;
+import candela.util;
 
 namespace importing::gltf {
 

@@ -12,7 +12,7 @@
 #include "import/model.h"
 #include "import/pictures.h"
 
-import candela.registry;
+import candela.plugins;
 
 namespace importing::gltf {
 

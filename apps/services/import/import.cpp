@@ -15,12 +15,10 @@
 #include "import/scene_text.h"
 #include "import/vectors.h"
 
-import candela.diagnostics;
-import candela.math;
-import candela.mesh;
-import candela.parameters;
-import candela.shape;
-import candela.text;
+import candela.api;
+import candela.geometry;
+import candela.plugins;
+import candela.util;
 
 namespace fs = std::filesystem;
 

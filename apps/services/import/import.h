@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-import candela.registry;
+import candela.plugins;
 
 namespace importing {
 

@@ -4,7 +4,7 @@
 
 #include "import/import.h"
 
-import candela.text;
+import candela.util;
 
 namespace importing {
 

@@ -11,9 +11,7 @@
 #include "import/obj_statements.h"
 #include "import/pictures.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.text;
+import candela.util;
 
 namespace fs = std::filesystem;
 

@@ -12,7 +12,7 @@
 #include "import/model.h"
 #include "import/readers.h"
 
-import candela.registry;
+import candela.plugins;
 
 namespace importing::obj {
 

@@ -10,9 +10,7 @@
 
 #include "import/gltf_container.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.text;
+import candela.util;
 
 namespace fs = std::filesystem;
 

@@ -10,8 +10,7 @@
 #include <system_error>
 #include <vector>
 
-import candela.files;
-import candela.text;
+import candela.util;
 
 namespace fs = std::filesystem;
 

@@ -10,9 +10,8 @@
 #include "import/obj_statements.h"
 #include "import/readers.h"
 
-import candela.files;
-import candela.formats;
-import candela.text;
+import candela.plugins;
+import candela.util;
 
 namespace fs = std::filesystem;
 

@@ -15,10 +15,9 @@
 #include <system_error>
 #include <utility>
 
-import candela.color;
-import candela.diagnostics;
-import candela.formats;
-import candela.text;
+import candela.api;
+import candela.plugins;
+import candela.util;
 
 namespace fs = std::filesystem;
 

@@ -7,8 +7,7 @@
 
 #include "import/model.h"
 
-import candela.formats;
-import candela.registry;
+import candela.plugins;
 
 namespace importing {
 

@@ -11,9 +11,8 @@
 #include "import/named_file.h"
 #include "import/readers.h"
 
-import candela.files;
-import candela.formats;
-import candela.registry;
+import candela.plugins;
+import candela.util;
 
 namespace fs = std::filesystem;
 

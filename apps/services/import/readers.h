@@ -5,7 +5,7 @@
 
 #include "import/model.h"
 
-import candela.registry;
+import candela.plugins;
 
 namespace importing {
 

@@ -10,8 +10,8 @@
 
 #include "import/vectors.h"
 
-import candela.text;
-import candela.toml;
+import candela.scene;
+import candela.util;
 
 namespace importing {
 

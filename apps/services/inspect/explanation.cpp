@@ -6,8 +6,7 @@
 #include <initializer_list>
 #include <utility>
 
-import candela.light;
-import candela.math;
+import candela.api;
 
 using candela::CompiledScene;
 using candela::FragmentProbe;

@@ -8,11 +8,11 @@
 
 #include "inspect/kernel_run.h"
 
-import candela.descriptor;
-import candela.registry;
+import candela.api;
+import candela.plugins;
 import candela.render;
 import candela.scene;
-import candela.shade;
+import candela.shading;
 
 /// The models of a scene that explaining any of its pixels may call.
 std::vector<const candela::PluginDescriptor*> plugins_explained_in(const candela::Scene& scene,

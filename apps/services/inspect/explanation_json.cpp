@@ -6,9 +6,7 @@
 #include "inspect/explanation.h"
 #include "json/json.h"
 
-import candela.color;
-import candela.math;
-import candela.shading;
+import candela.api;
 
 using candela::FragmentProbe;
 using candela::LightTrace;

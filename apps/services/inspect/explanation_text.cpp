@@ -8,10 +8,8 @@
 
 #include "inspect/explanation.h"
 
-import candela.color;
-import candela.math;
-import candela.shading;
-import candela.text;
+import candela.api;
+import candela.util;
 
 using candela::FragmentProbe;
 using candela::LightTrace;

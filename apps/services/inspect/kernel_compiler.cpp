@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-import candela.registry;
+import candela.plugins;
 
 namespace fs = std::filesystem;
 

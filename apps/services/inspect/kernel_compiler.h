@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-import candela.process;
+import candela.util;
 
 /// The folder of the headers for compiling kernels, next to the core's library. They may not be installed.
 std::filesystem::path kernel_headers();

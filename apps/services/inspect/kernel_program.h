@@ -6,9 +6,7 @@
 
 #include "inspect/kernel_trace.h"
 
-import candela.descriptor;
-import candela.math;
-import candela.params;
+import candela.api;
 
 /// One call of a kernel function.
 struct KernelCall {

@@ -16,9 +16,7 @@
 
 #include "inspect/kernel_compiler.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.process;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

@@ -10,7 +10,7 @@
 #include "inspect/kernel_program.h"
 #include "sandbox/temporary_folder.h"
 
-import candela.descriptor;
+import candela.api;
 
 /// An intermediate value of a kernel.
 struct KernelValue {

@@ -26,8 +26,7 @@
 #include "jobs/plan.h"
 #include "json/json.h"
 
-import candela.diagnostics;
-import candela.files;
+import candela.util;
 
 namespace fs = std::filesystem;
 using std::chrono::seconds;

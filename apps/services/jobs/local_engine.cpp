@@ -21,7 +21,7 @@
 #include "jobs/state.h"
 #include "sandbox/process_tree.h"
 
-import candela.process;
+import candela.util;
 
 namespace {
 

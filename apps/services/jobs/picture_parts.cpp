@@ -13,8 +13,7 @@
 #include "json/json.h"
 #include "programs/shell_words.h"
 
-import candela.diagnostics;
-import candela.files;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::ColorEncoding;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-import candela.film;
-import candela.image;
-import candela.registry;
+import candela.api;
+import candela.plugins;
+import candela.render;
 import candela.scene;
 
 /// Part `number` of `of`, counted from 1.

@@ -8,8 +8,7 @@
 #include "files/owned_files.h"
 #include "json/json.h"
 
-import candela.diagnostics;
-import candela.files;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

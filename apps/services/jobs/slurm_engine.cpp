@@ -7,9 +7,7 @@
 #include "jobs/engines.h"
 #include "programs/shell_words.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.process;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

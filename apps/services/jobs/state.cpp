@@ -6,7 +6,7 @@
 #include "files/owned_files.h"
 #include "film/render_cache.h"
 
-import candela.files;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Links;

@@ -6,8 +6,7 @@
 
 #include "programs/shell_words.h"
 
-import candela.diagnostics;
-import candela.text;
+import candela.util;
 
 namespace {
 

@@ -1,6 +1,6 @@
 #include "json/json.h"
 
-import candela.text;
+import candela.util;
 
 std::string json_text(const Json& json, int indentation) {
     return candela::printable_json(json.dump(indentation, ' ', false, Json::error_handler_t::replace));

@@ -7,7 +7,7 @@
 
 #include "candela/target/literals.h"
 
-import candela.text;
+import candela.util;
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-import candela.math;
+import candela.api;
 
 /// The intensity that diagrams show: the luminance of linear RGB (Rec. ITU-R BT.709).
 double luminance(const candela::Vec3& rgb);

@@ -8,11 +8,10 @@
 
 #include "plot/diagram.h"
 
-import candela.diagnostics;
-import candela.light;
-import candela.math;
-import candela.parameters;
+import candela.api;
+import candela.plugins;
 import candela.scene;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

@@ -6,7 +6,7 @@
 
 #include "plot/model_argument.h"
 
-import candela.registry;
+import candela.plugins;
 
 /// A point that faces the light, and the intensity that arrives there: the sum of all the light's samples, as
 /// luminance (Rec. 709).

@@ -7,7 +7,7 @@
 #include "plot/diagram.h"
 #include "plot/light_curves.h"
 
-import candela.text;
+import candela.util;
 
 namespace {
 

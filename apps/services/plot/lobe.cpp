@@ -11,12 +11,10 @@
 
 #include "plot/diagram.h"
 
-import candela.diagnostics;
-import candela.math;
-import candela.parameters;
-import candela.reflection;
+import candela.api;
+import candela.plugins;
 import candela.scene;
-import candela.text;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

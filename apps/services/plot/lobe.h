@@ -6,7 +6,7 @@
 
 #include "plot/model_argument.h"
 
-import candela.registry;
+import candela.plugins;
 
 /// A direction towards the observer, and the intensity that a white surface reflects there from a light of
 /// intensity 1: the model's contribution to I_d and I_s, as luminance (Rec. 709).

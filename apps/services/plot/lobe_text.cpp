@@ -8,7 +8,7 @@
 
 #include "plot/diagram.h"
 
-import candela.text;
+import candela.util;
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "console/reporting.h"
 
-import candela.diagnostics;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-import candela.descriptor;
-import candela.registry;
+import candela.api;
+import candela.plugins;
 import candela.scene;
 
 /// "reflection/phong:shininess=20,ks=0.5", "light/spot".

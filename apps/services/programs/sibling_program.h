@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-import candela.diagnostics;
+import candela.util;
 
 /// The path of a file installed with the command, relative to the prefix.
 std::filesystem::path beside_command(const char* relative);

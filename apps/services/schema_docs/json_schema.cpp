@@ -20,8 +20,7 @@ module;
 
 module candela.schema;
 
-import candela.parameters;
-import candela.registry;
+import candela.plugins;
 import candela.scene;
 
 namespace candela {

@@ -8,8 +8,8 @@ module;
 
 module candela.schema;
 
-import candela.math;
-import candela.parameters;
+import candela.api;
+import candela.plugins;
 
 namespace candela {
 

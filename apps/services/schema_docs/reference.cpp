@@ -15,10 +15,8 @@ module;
 
 module candela.schema;
 
-import candela.color;
-import candela.descriptor;
-import candela.parameters;
-import candela.registry;
+import candela.api;
+import candela.plugins;
 import candela.scene;
 
 namespace candela {

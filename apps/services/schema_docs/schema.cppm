@@ -8,8 +8,7 @@ module;
 
 export module candela.schema;
 
-import candela.parameters;
-import candela.registry;
+import candela.plugins;
 
 export namespace candela {
 

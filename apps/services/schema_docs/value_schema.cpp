@@ -12,7 +12,7 @@ module;
 
 module candela.schema;
 
-import candela.parameters;
+import candela.plugins;
 
 namespace candela {
 

@@ -11,10 +11,8 @@
 #include "candela/target/literals.h"
 #include "programs/sibling_program.h"
 
-import candela.color;
-import candela.diagnostics;
-import candela.files;
-import candela.reflection;
+import candela.api;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-import candela.exported_scene;
-import candela.registry;
+import candela.plugins;
+import candela.render;
 
 /// A project's name in the forms that its files use.
 struct ProjectNames {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-import candela.files;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

@@ -8,8 +8,8 @@
 
 #include "verify/edges.h"
 
-import candela.color;
-import candela.diagnostics;
+import candela.api;
+import candela.util;
 
 namespace verify {
 

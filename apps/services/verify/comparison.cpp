@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-import candela.process;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

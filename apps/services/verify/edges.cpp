@@ -12,11 +12,10 @@
 #include <utility>
 #include <vector>
 
-import candela.light;
+import candela.api;
 import candela.raster;
 import candela.scene;
-import candela.shade;
-import candela.transform;
+import candela.shading;
 
 using candela::Observer;
 using candela::Projection;

@@ -3,7 +3,6 @@
 
 #include <vector>
 
-import candela.film;
 import candela.render;
 
 namespace verify {

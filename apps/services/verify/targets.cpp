@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-import candela.library;
-import candela.text;
+import candela.plugins;
+import candela.util;
 
 using candela::Error;
 using candela::ErrorCategory;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-import candela.diagnostics;
-import candela.exported_scene;
-import candela.registry;
+import candela.plugins;
+import candela.render;
+import candela.util;
 
 /// A target whose plugin is loaded. Exceptions of the plugin become candela::Error with its name.
 class LoadedTarget {

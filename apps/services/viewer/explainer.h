@@ -12,7 +12,7 @@
 #include "viewer/request.h"
 #include "viewer/server.h"
 
-import candela.process;
+import candela.util;
 
 /// Runs a `candela explain` that has read the scene and compiled its models' kernels before the first
 /// request, and then waits for pixels, one at a time. Ends it after a long idle time. Replaces it whenever

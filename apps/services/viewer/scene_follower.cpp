@@ -24,9 +24,7 @@
 #include "sandbox/process_tree.h"
 #include "templates/plugin_project.h"
 
-import candela.diagnostics;
-import candela.files;
-import candela.process;
+import candela.util;
 
 namespace fs = std::filesystem;
 using candela::Error;

@@ -16,7 +16,7 @@
 #include "viewer/server.h"
 #include "viewer/watcher.h"
 
-import candela.process;
+import candela.util;
 
 /// Identifies a file's state: it changes whenever the file is written or replaced.
 struct FileState {

@@ -36,7 +36,7 @@
 #include "json/json.h"
 #include "viewer/waiting_page.h"
 
-import candela.diagnostics;
+import candela.util;
 
 namespace view {
 

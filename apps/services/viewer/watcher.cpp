@@ -14,7 +14,7 @@
 #include <system_error>
 #include <utility>
 
-import candela.diagnostics;
+import candela.util;
 
 namespace view {
 

@@ -60,7 +60,7 @@ struct ExportedTextureLevel {
 };
 
 /// A picture that multiplies the colours of surfaces. Levels, and values between them, are looked up as
-/// candela.texture does.
+/// candela.shading does.
 struct ExportedTexture {
     const char* file = "";  // absolute path
     std::span<const ExportedTextureLevel> levels{};

@@ -9,15 +9,13 @@ module;
 module candela.render:tile;
 
 import :compiled_scene;
+import :film;
 import :sparse_set;
-import candela.arrays;
-import candela.color;
-import candela.film;
-import candela.fragments;
-import candela.math;
+import candela.api;
 import candela.raster;
 import candela.scene;
-import candela.shade;
+import candela.shading;
+import candela.util;
 
 namespace candela {
 

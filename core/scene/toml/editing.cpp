@@ -13,10 +13,9 @@ module;
 #include <variant>
 #include <vector>
 
-module candela.toml;
+module candela.scene;
 
-import candela.diagnostics;
-import candela.text;
+import candela.util;
 
 namespace candela {
 

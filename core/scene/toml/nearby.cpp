@@ -9,11 +9,9 @@ module;
 #include <system_error>
 #include <vector>
 
-module candela.toml;
+module candela.scene;
 
-import candela.diagnostics;
-import candela.files;
-import candela.text;
+import candela.util;
 
 namespace candela {
 

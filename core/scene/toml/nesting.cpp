@@ -10,7 +10,7 @@ module;
 #include <string>
 #include <string_view>
 
-module candela.toml;
+module candela.scene;
 
 import :text;
 

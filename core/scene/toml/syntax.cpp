@@ -11,10 +11,10 @@ module;
 #include <string>
 #include <string_view>
 
-module candela.toml;
+module candela.scene;
 
 import :text;
-import candela.text;
+import candela.util;
 
 namespace candela {
 

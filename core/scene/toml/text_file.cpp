@@ -16,11 +16,10 @@ module;
 #include <string_view>
 #include <utility>
 
-module candela.toml;
+module candela.scene;
 
 import :text;
-import candela.diagnostics;
-import candela.text;
+import candela.util;
 
 namespace candela {
 

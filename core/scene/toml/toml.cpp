@@ -17,11 +17,10 @@ module;
 #include <vector>
 #include "tomlplusplus.h"
 
-module candela.toml;
+module candela.scene;
 
 import :text;
-import candela.diagnostics;
-import candela.text;
+import candela.util;
 
 namespace candela {
 

@@ -14,9 +14,9 @@ module;
 #include <variant>
 #include <vector>
 
-export module candela.toml;
+export module candela.scene:toml;
 
-import candela.diagnostics;
+import candela.util;
 
 export namespace candela {
 

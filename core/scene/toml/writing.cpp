@@ -10,10 +10,9 @@ module;
 #include <string>
 #include <string_view>
 
-module candela.toml;
+module candela.scene;
 
-import candela.diagnostics;
-import candela.text;
+import candela.util;
 
 namespace candela {
 

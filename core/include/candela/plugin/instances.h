@@ -1,5 +1,5 @@
 // Makes instances as a host does, for tests of plugins built by any compiler. Programs use the module
-// candela.registry.
+// candela.plugins.
 #pragma once
 
 #include <cstdint>

@@ -8,9 +8,9 @@ module;
 #include <string>
 #include <string_view>
 
-module candela.toml:text;
+module candela.scene:text;
 
-import candela.diagnostics;
+import candela.util;
 
 namespace candela {
 

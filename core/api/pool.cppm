@@ -1,9 +1,0 @@
-module;
-
-#include "candela/pool.h"
-
-export module candela.pool;
-
-export namespace candela {
-using candela::Pool;
-}

@@ -1,0 +1,361 @@
+module;
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/dll/runtime_symbol_info.hpp>
+#include <cerrno>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+module candela.plugins;
+
+import candela.util;
+
+namespace candela {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The shipped manifests have two or three thousand bytes.
+constexpr std::size_t k_largest_manifest = 1u << 20;
+
+std::string id_of(PluginKind kind, std::string_view name) {
+    return fmt::format("{}/{}", name_of(kind), name);
+}
+
+bool is_missing(const fs::path& directory) {
+    return ::access(directory.c_str(), F_OK) != 0 && errno == ENOENT;
+}
+
+bool is_readable(const fs::path& file) { return ::access(file.c_str(), R_OK) == 0; }
+
+bool is_regular(const fs::path& file) {
+    std::error_code ignored;
+    return fs::is_regular_file(file, ignored);
+}
+
+void add_path_list(std::vector<fs::path>& directories, std::string_view list) {
+    while (!list.empty()) {
+        const auto colon = list.find(':');
+        if (colon != 0) directories.emplace_back(list.substr(0, colon));
+        list.remove_prefix(colon == std::string_view::npos ? list.size() : colon + 1);
+    }
+}
+
+fs::path library_of(const fs::path& directory, PluginKind kind, std::string_view name) {
+    return directory / fmt::format("{}-{}.so", candela::name_of(kind), name);
+}
+
+/// Why an existing file cannot be read; empty if it can be, or does not exist. That this user cannot read a
+/// whole folder says nothing about a file in it.
+std::string reading_problem(const fs::path& file) {
+    struct stat status{};
+    if (::access(file.parent_path().c_str(), X_OK) != 0 || ::lstat(file.c_str(), &status) != 0) return {};
+    if (is_readable(file)) return {};
+    return errno == ENOENT ? "it is a dangling link" : std::strerror(errno);
+}
+
+std::string_view environment(const char* name) {
+    const char* const value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+/// "belongs to …" or "is writable by every user"; empty if only this user and root can modify the file or
+/// folder.
+std::string who_else_can_write(const fs::path& path) {
+    struct stat status{};
+    if (::stat(path.c_str(), &status) != 0) return {};
+    if (status.st_uid != 0 && status.st_uid != ::geteuid())
+        return fmt::format("belongs to user {}", status.st_uid);
+    if ((status.st_mode & S_IWOTH) != 0) return "is writable by every user";
+    return {};
+}
+
+/// In full, because only its last part may differ; a manifest may contain anything in its place.
+std::string fingerprint_text(std::string_view abi) {
+    constexpr std::size_t k_longest = 100;
+    const bool is_plain =
+        abi.size() <= k_longest && std::ranges::all_of(abi, [](char c) { return c >= ' ' && c <= '~'; });
+    return is_plain ? std::string(abi) : shortened(abi);
+}
+
+}  // namespace
+
+std::vector<fs::path> plugin_search_path(std::span<const fs::path> first) {
+    std::vector<fs::path> directories(first.begin(), first.end());
+    add_path_list(directories, environment("CANDELA_PLUGIN_PATH"));
+    if (const auto data = environment("XDG_DATA_HOME"); !data.empty()) {
+        directories.push_back(fs::path(data) / "candela/plugins");
+    } else if (const auto home = environment("HOME"); !home.empty()) {
+        directories.push_back(fs::path(home) / ".local/share/candela/plugins");
+    }
+    // This library is lib/libcandela_core.so, so plugins are in lib/candela/plugins.
+    directories.push_back(
+        (boost::dll::this_line_location().parent_path() / "candela/plugins").lexically_normal());
+    return directories;
+}
+
+Registry::Registry(std::vector<fs::path> search_path, PluginTrust trust, std::size_t named_folders,
+                   ReplacementHandler on_replaced)
+    : search_path_(std::move(search_path)),
+      trust_(trust),
+      named_folders_(named_folders),
+      on_replaced_(std::move(on_replaced)) {}
+
+const PluginFile* Registry::look_at(const fs::path& directory, const std::string& id, PluginKind kind,
+                                    std::string_view name) {
+    if (is_missing(directory)) return nullptr;
+    const std::string stem = fmt::format("{}-{}", candela::name_of(kind), name);
+    const fs::path manifest_path = directory / (stem + ".json");
+    const fs::path library = directory / (stem + ".so");
+    const auto refuse = [&](const std::string& reason, Help help = {}) {
+        refused_[library] = {library, fmt::format("plugin '{}' is refused: {}", library.string(), reason),
+                             std::move(help)};
+        return nullptr;
+    };
+    const auto text = read_text_file(manifest_path, k_largest_manifest);
+    if (!text || !is_readable(library)) {
+        for (const fs::path& part : {library, manifest_path}) {
+            if (const std::string problem = reading_problem(part); !problem.empty())
+                return refuse(
+                    fmt::format("{} cannot be read: {}", part == library ? "it" : "its manifest", problem));
+        }
+    }
+    const bool has_library = is_regular(library);
+    if (!text && is_regular(manifest_path)) {
+        // An error that may be temporary says nothing about the plugin.
+        throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", manifest_path.string()));
+    }
+    if (!text) {
+        return has_library ? refuse(fmt::format(
+                                 "its manifest {}.json is missing; build it with candela_add_plugin()", stem))
+                           : nullptr;
+    }
+    if (!has_library) return refuse("its manifest exists, but the library does not");
+    if (text->size() > k_largest_manifest) {
+        return refuse(fmt::format("its manifest {}.json is larger than {} bytes", stem, k_largest_manifest));
+    }
+    if (trust_ != PluginTrust::any) {
+        for (const fs::path& part : {directory, library}) {
+            if (const std::string who = who_else_can_write(part); !who.empty()) {
+                return refuse(
+                    fmt::format("'{}' {}, so anybody could run code here; change that", part.string(), who),
+                    {Help::Topic::plugin_trust});
+            }
+        }
+    }
+    const auto refuse_abi = [&](std::string_view abi) {
+        return refuse(
+            fmt::format("it was built for '{}', but this is '{}'; build it again with this Candela's SDK",
+                        fingerprint_text(abi), host_abi()));
+    };
+    auto file = std::make_unique<PluginFile>();
+    try {
+        file->manifest = manifest_from_json(*text);
+    } catch (const Error& problem) {
+        if (const std::string abi = abi_from_json(*text); !abi.empty() && abi != host_abi())
+            return refuse_abi(abi);
+        return refuse(fmt::format("its manifest {}.json cannot be used: {}", stem, problem.what()));
+    }
+    if (file->manifest.abi != host_abi()) return refuse_abi(file->manifest.abi);
+    if (file->manifest.id() != id) {
+        return refuse(
+            fmt::format("its manifest is that of {}; a plugin's file must be called <kind>-<name>.so",
+                        file->manifest.id()));
+    }
+    if (const std::string damage = library_damage(library); !damage.empty())
+        return refuse(fmt::format("it cannot be loaded ({}); build it again, or remove it", damage));
+    file->library = library;
+    file->schema = std::make_shared<const std::vector<Parameter>>(file->manifest.parameters);
+    return (found_[id] = std::move(file)).get();
+}
+
+const PluginFile* Registry::find(PluginKind kind, std::string_view name) {
+    const std::lock_guard lock(mutex_);
+    const std::string id = id_of(kind, name);
+    if (const auto known = found_.find(id); known != found_.end()) return known->second.get();
+    if (name.find('/') != std::string_view::npos) return nullptr;
+    for (std::size_t i = 0; i < search_path_.size(); ++i) {
+        if (const PluginFile* const file = look_at(search_path_[i], id, kind, name)) {
+            report_replaced(*file, kind, name);
+            return file;
+        }
+        if (i < named_folders_ && refused_.contains(library_of(search_path_[i], kind, name))) break;
+    }
+    found_[id] = nullptr;
+    return nullptr;
+}
+
+std::vector<Refusal*> Registry::refused_before(const PluginFile* instead, PluginKind kind,
+                                               std::string_view name) {
+    std::vector<Refusal*> result;
+    for (const fs::path& directory : search_path_) {
+        const fs::path library = library_of(directory, kind, name);
+        if (instead != nullptr && instead->library == library) break;
+        if (const auto refused = refused_.find(library); refused != refused_.end())
+            result.push_back(&refused->second);
+    }
+    return result;
+}
+
+void Registry::report_replaced(const PluginFile& instead, PluginKind kind, std::string_view name) {
+    for (Refusal* const refused : refused_before(&instead, kind, name)) {
+        if (!refused->used_instead.empty()) continue;
+        refused->used_instead = instead.library;
+        if (on_replaced_) on_replaced_(*refused);
+    }
+}
+
+const PluginFile& Registry::require(PluginKind kind, std::string_view name) {
+    if (const PluginFile* const file = find(kind, name)) return *file;
+    const std::lock_guard lock(mutex_);
+    if (const auto refused = refused_before(nullptr, kind, name); !refused.empty())
+        throw Error(ErrorCategory::failure, refused.front()->reason, refused.front()->help);
+    const std::vector<std::string> known = names(kind);
+    const std::string meant = suggestion(name, known);
+    throw Error(ErrorCategory::failure,
+                fmt::format("no {} plugin is called '{}'{}{} (installed: {})", candela::name_of(kind), name,
+                            meant.empty() ? "" : "; ", meant,
+                            known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))),
+                {meant.empty() ? Help::Topic::all_plugins : Help::Topic::none});
+}
+
+void Registry::scan(PluginKind kind) {
+    if (!scanned_.insert(kind).second) return;
+    const std::string prefix = fmt::format("{}-", candela::name_of(kind));
+    for (const fs::path& directory : search_path_) {
+        std::error_code problem;
+        std::set<std::string> names;
+        const auto files = names_in(directory);
+        if (!files && fs::exists(directory, problem) && ::access(directory.c_str(), R_OK) == 0) {
+            throw Error(ErrorCategory::failure,
+                        fmt::format("the folder '{}' cannot be read", directory.string()));
+        }
+        if (!files) continue;
+        for (const std::string& name : *files) {
+            const fs::path file(name);
+            const std::string extension = file.extension().string();
+            const std::string stem = file.stem().string();
+            if ((extension == ".so" || extension == ".json") && stem.starts_with(prefix))
+                names.insert(stem.substr(prefix.size()));
+        }
+        for (const std::string& name : names) find(kind, name);
+    }
+}
+
+std::vector<const PluginFile*> Registry::list(PluginKind kind) {
+    const std::lock_guard lock(mutex_);
+    scan(kind);
+    std::vector<const PluginFile*> all;
+    for (const auto& [id, file] : found_) {
+        if (file != nullptr && file->manifest.kind == kind) all.push_back(file.get());
+    }
+    std::ranges::sort(all, {},
+                      [](const PluginFile* file) -> const std::string& { return file->manifest.name; });
+    return all;
+}
+
+std::vector<const PluginFile*> Registry::list() {
+    std::vector<const PluginFile*> all;
+    for (const PluginKind kind : k_plugin_kinds) {
+        const auto some = list(kind);
+        all.insert(all.end(), some.begin(), some.end());
+    }
+    return all;
+}
+
+std::vector<std::string> Registry::names(PluginKind kind) {
+    std::vector<std::string> result;
+    for (const PluginFile* file : list(kind)) result.push_back(file->manifest.name);
+    return result;
+}
+
+std::vector<Refusal> Registry::refusals() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<Refusal> result;
+    for (const auto& [file, refusal] : refused_) result.push_back(refusal);
+    return result;
+}
+
+const PluginFile* Registry::find_format(std::string_view extension, FormatUse use) {
+    // Trying the plugin named after its format first avoids reading all other manifests.
+    const auto is_able = [&](const PluginFile* file) {
+        return std::ranges::any_of(file->manifest.formats, [&](const ManifestFormat& format) {
+            return format.extension == extension && (use == FormatUse::write || format.reads);
+        });
+    };
+    const auto is_fallback = [](const PluginFile* file) {
+        return file->manifest.property("fallback").has_value();
+    };
+    if (const PluginFile* const file = find(PluginKind::image, extension); file != nullptr && is_able(file))
+        return file;
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = 0; i < named_folders_; ++i) {
+        const auto refused = refused_.find(library_of(search_path_[i], PluginKind::image, extension));
+        if (refused != refused_.end())
+            throw Error(ErrorCategory::failure, refused->second.reason, refused->second.help);
+    }
+    const PluginFile* best = nullptr;
+    for (const PluginFile* file : list(PluginKind::image)) {
+        if (is_able(file) && (best == nullptr || (is_fallback(best) && !is_fallback(file)))) best = file;
+    }
+    if (best != nullptr) report_replaced(*best, PluginKind::image, extension);
+    return best;
+}
+
+std::vector<std::string> Registry::extensions(FormatUse use) {
+    std::set<std::string> all;
+    for (const PluginFile* file : list(PluginKind::image)) {
+        for (const ManifestFormat& format : file->manifest.formats) {
+            if (use == FormatUse::write || format.reads) all.insert(format.extension);
+        }
+    }
+    return {all.begin(), all.end()};
+}
+
+ParamSet Registry::parameters(PluginKind kind, std::string_view name) {
+    return ParamSet(require(kind, name).schema);
+}
+
+const PluginDescriptor& Registry::load(const PluginFile& file) {
+    const std::lock_guard lock(mutex_);
+    PluginFile& known = *found_.find(file.manifest.id())->second;
+    if (known.descriptor == nullptr) known.descriptor = &load_plugin(known.library, &known.manifest);
+    return *known.descriptor;
+}
+
+std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string_view name,
+                                                    const ParamSet& values, ColorEncoding encoding) {
+    const PluginFile& file = require(kind, name);
+    const PluginDescriptor& descriptor = load(file);
+    try {
+        std::unique_ptr<Instance> instance(descriptor.create(values.delivered(encoding)));
+        if (instance == nullptr) throw std::runtime_error("created nothing");
+        return instance;
+    } catch (...) {
+        rethrow_as_plugin_error(kind, name);
+    }
+}
+
+void Registry::throw_wrong_interface(PluginKind kind, std::string_view name) {
+    throw Error(ErrorCategory::failure, fmt::format("plugin {}/{} created an object that is not a {}",
+                                                    candela::name_of(kind), name, candela::name_of(kind)));
+}
+
+}  // namespace candela

@@ -1,0 +1,282 @@
+module;
+
+#include "candela/kernel/simd_dispatch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+module candela.raster;
+
+import :attributes;
+import :interpolation;
+import candela.util;
+
+namespace candela {
+
+namespace {
+
+/// Scales homogeneous coordinates that are so large or so small that products of two leave the range of
+/// floats. The factor is a power of two, so that nothing is rounded.
+void keep_in_range(TriangleAttributes& t) {
+    constexpr float k_largest_picture = 65536;
+    constexpr float k_large = 0x1p40f;
+    float largest = 0;
+    for (const ProjectedVertex& v : t.projected)
+        largest = std::max({largest, std::abs(v.x), std::abs(v.y), k_largest_picture * std::abs(v.w)});
+    if (largest == 0 || (largest < k_large && largest > 1 / k_large)) return;
+    const int exponent = -std::ilogb(largest);
+    for (ProjectedVertex& v : t.projected) {
+        for (float* const coordinate : {&v.x, &v.y, &v.w}) *coordinate = std::ldexp(*coordinate, exponent);
+    }
+}
+
+}  // namespace
+
+bool ProjectedMesh::is_back(std::uint32_t triangle) const {
+    if (mesh.closed) return false;
+    const Indices vertices = corners_of(mesh, triangle);
+    double x[3], y[3], w[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+        const ProjectedVertex& v = scene.vertices[first_vertex + vertices[k]];
+        x[k] = v.x;
+        y[k] = v.y;
+        w[k] = v.w;
+    }
+    // Twice the signed area, y down: the front is counter-clockwise with y up.
+    return x[0] * (y[1] * w[2] - y[2] * w[1]) - y[0] * (x[1] * w[2] - x[2] * w[1]) +
+               w[0] * (x[1] * y[2] - x[2] * y[1]) >
+           0;
+}
+
+namespace {
+
+TriangleAttributes attributes_of(const ProjectedMesh& source, std::uint32_t triangle) {
+    const Indices vertices = corners_of(source.mesh, triangle);
+    TriangleAttributes t;
+    for (std::size_t k = 0; k < 3; ++k) {
+        t.projected[k] = source.scene.vertices[source.first_vertex + vertices[k]];
+        t.corner[k] = source.mesh.vertices[vertices[k]];
+    }
+    t.face_normal = source.mesh.face_normal.span()[triangle];
+    for (std::size_t k = 0; k < 3 && !source.mesh.u.empty(); ++k) {
+        t.u[k] = source.mesh.u[vertices[k]];
+        t.v[k] = source.mesh.v[vertices[k]];
+    }
+    if (!source.scene.is_moderate) keep_in_range(t);
+    return t;
+}
+
+IndexedMesh indexed(const ProjectedMesh& source) {
+    return {.indices = source.mesh.indices.data(),
+            .projected = source.scene.vertices.data() + source.first_vertex,
+            .vertices = source.mesh.vertices.data(),
+            .face_normal = source.mesh.face_normal.span(),
+            .uv = {source.mesh.u.data(), source.mesh.v.data()}};
+}
+
+/// Whole vectors are written; the next run overwrites the excess.
+struct PlacesLoop {
+    CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, float* x, float* y) {
+        for (const FragmentRun* run = runs; run != runs + count; ++run) {
+            for (std::size_t first = 0; first < run->count; first += k_lanes) {
+                const float left = run->x + static_cast<float>(first);
+                const float top = run->y;
+                CANDELA_VECTORIZE_SIXTEEN
+                for (std::size_t i = 0; i < k_lanes; ++i) {
+                    x[first + i] = left + static_cast<float>(i);
+                    y[first + i] = top;
+                }
+            }
+            x += run->count;
+            y += run->count;
+        }
+    }
+};
+
+/// The bits in which triangles differ from the first one, vector by vector.
+struct DifferencesLoop {
+    CANDELA_BATCH_LOOP static void run(const std::uint32_t* triangle, std::size_t count,
+                                       std::uint32_t* differing) {
+        for (std::size_t first = 0; first < count; first += k_lanes) {
+            const std::uint32_t* const of = triangle + first;
+            const std::uint32_t at_first = of[0];
+            std::uint32_t bits = 0;
+            CANDELA_VECTORIZE_SIXTEEN
+            for (std::size_t i = 0; i < k_lanes; ++i) bits |= of[i] ^ at_first;
+            differing[first / k_lanes] = bits;
+        }
+    }
+};
+
+/// The fragments of a batch: their positions and triangles. The last one is repeated, to pad the batch and
+/// because whole vectors that begin anywhere reach past its end.
+struct Places {
+    static constexpr std::size_t k_behind = 2 * k_lanes;
+
+    alignas(64) std::array<float, k_batch_size + k_behind> x, y;
+    bool is_one_triangle = false;  // all of them are on one triangle; then the following is not filled
+    alignas(64) std::array<std::uint32_t, k_batch_size + k_behind> triangle;
+    alignas(64) std::array<std::uint32_t, k_batch_size / k_lanes> differing;
+
+    explicit Places(const FragmentBatch& batch) {
+        const std::size_t count = batch.triangles.size();
+        multiversion<PlacesLoop>(batch.runs.data(), batch.runs.size(), x.data(), y.data());
+        std::fill_n(&x[count], k_behind, x[count - 1]);
+        std::fill_n(&y[count], k_behind, y[count - 1]);
+        is_one_triangle = are_all_equal(batch.triangles);
+        if (is_one_triangle) return;
+        std::ranges::copy(batch.triangles, triangle.begin());
+        std::fill_n(&triangle[count], k_behind, triangle[count - 1]);
+        multiversion<DifferencesLoop>(std::as_const(triangle).data(), whole_vectors(count), differing.data());
+    }
+
+    /// Whether the vector from `first` on is on one triangle.
+    bool is_on_one(std::size_t first) const { return differing[first / k_lanes] == 0; }
+
+    /// All at once, because in a large mesh they are far apart.
+    void prefetch(const Mesh& mesh, std::size_t first, Interpolated what) const {
+        for (std::size_t i = first; i < first + k_lanes; ++i) {
+            __builtin_prefetch(&mesh.indices[3 * std::size_t{triangle[i]}]);
+            if (!has_faces(what)) continue;
+            __builtin_prefetch(&mesh.face_normal.x[triangle[i]]);
+            __builtin_prefetch(&mesh.face_normal.y[triangle[i]]);
+            __builtin_prefetch(&mesh.face_normal.z[triangle[i]]);
+        }
+    }
+};
+
+/// Calls `visit(triangle, first, end)` for each run of `triangles` on one triangle; the last run ends with
+/// the padding.
+template <class Visit>
+void each_triangle(std::span<const std::uint32_t> triangles, std::size_t filled, Visit visit) {
+    for (std::size_t first = 0; first < triangles.size();) {
+        std::size_t end = first + 1;
+        while (end < triangles.size() && triangles[end] == triangles[first]) ++end;
+        visit(triangles[first], first, end == triangles.size() ? filled : end);
+        first = end;
+    }
+}
+
+/// For a mesh without texture coordinates.
+void clear_uv(SurfacePoints& points) {
+    for (AlignedVector<float>* const array :
+         {&points.u, &points.v, &points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
+        std::ranges::fill(*array, 0.0f);
+}
+
+Interpolated interpolated_for(PointNeeds needs) {
+    const bool has_points = needs.position || needs.vertex_normal || needs.uv;
+    if (needs.face_normal || needs.color || needs.derivatives || (needs.barycentric && has_points))
+        return needs.uv ? Interpolated::all : Interpolated::all_but_uv;
+    if (needs.barycentric) return Interpolated::barycentric;
+    return needs.uv ? Interpolated::position_and_normal_and_uv : Interpolated::position_and_normal;
+}
+
+/// Barycentric coordinates of a batch's fragments and everything derived from them, vector by vector:
+/// fragments on one triangle read it once, in other vectors each fragment reads its own.
+class BatchInterpolation {
+  public:
+    BatchInterpolation(const ProjectedMesh& source, const Places& places, Interpolated what,
+                       SurfacePoints& points)
+        : source_(source), places_(places), what_(what), points_(points) {}
+
+    void run() {
+        for (std::size_t first = 0; first < points_.filled; first += k_lanes) {
+            if (!places_.is_on_one(first)) places_.prefetch(source_.mesh, first, what_);
+        }
+        for (std::size_t first = 0; first < points_.filled;) {
+            const bool is_one = places_.is_on_one(first);
+            const std::uint32_t triangle = places_.triangle[first];
+            std::size_t end = first + k_lanes;
+            while (end < points_.filled && places_.is_on_one(end) == is_one &&
+                   (!is_one || places_.triangle[end] == triangle))
+                end += k_lanes;
+            if (is_one) {
+                on_one_triangle(triangle, first, end);
+            } else {
+                interpolate_each(what_, indexed(source_), end - first, &places_.triangle[first],
+                                 &places_.x[first], &places_.y[first], spans_from(first));
+            }
+            first = end;
+        }
+    }
+
+    void on_one_triangle(std::uint32_t triangle, std::size_t first, std::size_t end) {
+        interpolate(what_, attributes_of(source_, triangle), end - first, &places_.x[first],
+                    &places_.y[first], spans_from(first));
+    }
+
+  private:
+    InterpolatedSpans spans_from(std::size_t first) {
+        return {points_.barycentric.span().from(first),
+                points_.position.span().from(first),
+                points_.vertex_normal.span().from(first),
+                points_.face_normal.span().from(first),
+                Vec2Span{points_.u.data(), points_.v.data()}.from(first),
+                Vec2Span{points_.dudx.data(), points_.dvdx.data()}.from(first),
+                Vec2Span{points_.dudy.data(), points_.dvdy.data()}.from(first)};
+    }
+
+    const ProjectedMesh& source_;
+    const Places& places_;
+    Interpolated what_;
+    SurfacePoints& points_;
+};
+
+}  // namespace
+
+void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, PointNeeds needs,
+                      SurfacePoints& points) {
+    points.has_color = needs.color = needs.color && !source.mesh.color.empty();
+    points.count = batch.triangles.size();
+    points.filled = whole_vectors(points.count);
+    if (needs.uv && source.mesh.u.empty()) {
+        clear_uv(points);
+        needs.uv = false;
+    }
+    const bool is_faceted = source.mesh.is_faceted && needs.vertex_normal;
+    needs.face_normal = needs.face_normal || is_faceted;
+    const Places places(batch);
+    BatchInterpolation interpolation(source, places, interpolated_for(needs), points);
+    if (places.is_one_triangle) {
+        interpolation.on_one_triangle(batch.triangles[0], 0, points.filled);
+    } else if (source.scene.is_moderate) {
+        interpolation.run();
+    } else {
+        // Each triangle has its own scale.
+        each_triangle(batch.triangles, points.filled,
+                      [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
+                          interpolation.on_one_triangle(triangle, first, end);
+                      });
+    }
+    if (is_faceted) {
+        const ConstVec3Span from = std::as_const(points.face_normal).span();
+        const Vec3Span to = points.vertex_normal.span();
+        std::copy_n(from.x, points.filled, to.x);
+        std::copy_n(from.y, points.filled, to.y);
+        std::copy_n(from.z, points.filled, to.z);
+    }
+
+    face_forward(points);
+    needs.uv = false;
+    if (source.mesh.closed && !needs.more()) return;
+    each_triangle(batch.triangles, points.filled,
+                  [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
+                      if (source.is_back(triangle)) {
+                          points.any_from_behind = true;
+                          std::fill(points.facing.begin() + static_cast<std::ptrdiff_t>(first),
+                                    points.facing.begin() + static_cast<std::ptrdiff_t>(end), -1.0f);
+                      }
+                      if (needs.more())
+                          blend_attributes(source.mesh, corners_of(source.mesh, triangle), needs, first,
+                                           end - first, points);
+                  });
+}
+
+}  // namespace candela

@@ -1,0 +1,410 @@
+module;
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <map>
+#include <memory>
+#include <new>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+module candela.render;
+
+import candela.api;
+import candela.geometry;
+import candela.plugins;
+import candela.raster;
+import candela.scene;
+import candela.shading;
+import candela.util;
+
+namespace candela {
+
+namespace {
+
+/// A scene and what it was compiled to, from which the next frame takes whatever is unchanged.
+struct Before {
+    Scene scene;
+    CompiledScene compiled;
+    std::vector<std::vector<std::string>> warnings;  // of the objects' shapes
+};
+
+/// Whether nothing has moved, so that the constraints hold as before. Objects are compared elsewhere.
+bool is_placed_as(const Scene& a, const Scene& b) {
+    const auto is_same_light = [](const LightSource& x, const LightSource& y) {
+        return x.label == y.label && position_of(x) == position_of(y);
+    };
+    // Warnings are reported again in every frame.
+    return a.constraints == b.constraints && a.constraints.overlap != Severity::warning && a.room == b.room &&
+           a.observer.position == b.observer.position &&
+           std::ranges::equal(a.lights, b.lights, is_same_light);
+}
+
+class Compiler {
+  public:
+    /// Moves reusable parts out of `before`, if it is not null.
+    Compiler(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics, const Progress& progress,
+             Before* before = nullptr)
+        : scene_(draft.scene),
+          registry_(registry),
+          diagnostics_(diagnostics),
+          progress_(progress),
+          before_(before != nullptr &&
+                          before->scene.image.color_management == draft.scene.image.color_management &&
+                          before->scene.objects.size() == draft.scene.objects.size()
+                      ? before
+                      : nullptr),
+          warnings_(draft.scene.objects.size()) {
+        tell();
+        compiled_.observer = scene_.observer;
+        compiled_.image = scene_.image;
+        if (draft.is_complete) make_models();
+        if (draft.is_complete) make_textures();
+        if (draft.is_complete) make_environment();
+        place_shapes();
+        if (!has_kept_triangles() || !is_placed_as(before_->scene, scene_)) check(draft);
+    }
+
+    bool has_kept_triangles() const { return before_ != nullptr && kept_ == scene_.objects.size(); }
+    std::vector<std::vector<std::string>> take_warnings() { return std::move(warnings_); }
+
+    std::optional<CompiledScene> take(int threads) {
+        if (diagnostics_.has_errors()) return std::nullopt;
+        with_threads(
+            threads,
+            [&] {
+                for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+                    finish(i);
+                    count_step();
+                }
+                make_trees();
+            },
+            rough_milliseconds());
+        if (diagnostics_.has_errors()) return std::nullopt;
+        return std::move(compiled_);
+    }
+
+  private:
+    /// `part` of the next step has been done already.
+    void tell(double part = 0) const {
+        constexpr std::size_t k_steps = 3;  // per object
+        constexpr std::size_t k_parts = 1000;
+        if (!progress_) return;
+        const auto parts = static_cast<std::size_t>(k_parts * std::clamp(part, 0.0, 1.0));
+        progress_(k_parts * steps_done_ + parts, k_parts * k_steps * scene_.objects.size());
+    }
+    void count_step() {
+        ++steps_done_;
+        tell();
+    }
+
+    template <class Work>
+    void guarded(const std::string& whose, const SourcePlace& place, Work work) {
+        try {
+            work();
+        } catch (const Error& problem) {
+            const std::string message = fmt::format("{}: {}", whose, problem.what());
+            problem.category() == ErrorCategory::invalid_scene ? diagnostics_.error(place, message)
+                                                               : diagnostics_.failure(place, message);
+        }
+    }
+
+    template <class Interface>
+    std::unique_ptr<Interface> made(const Model& model) {
+        return registry_.create<Interface>(model.name, model.parameters, encoding());
+    }
+
+    void make_models() {
+        for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+            const LightSource& light = scene_.lights[i];
+            if (before_ != nullptr && i < before_->scene.lights.size() &&
+                before_->scene.lights[i].model == light.model) {
+                compiled_.lights.push_back(std::move(before_->compiled.lights[i]));
+                continue;
+            }
+            guarded("light " + light.label, light.place,
+                    [&] { compiled_.lights.push_back({light.model.name, made<Light>(light.model)}); });
+        }
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+            const Object& object = scene_.objects[i];
+            SolidObject& solid = compiled_.objects.emplace_back();
+            solid.label = object.label;
+            if (const Object* const old = object_before(i);
+                old != nullptr && old->color == object.color && old->color_texture == object.color_texture &&
+                old->color_texture_wrap == object.color_texture_wrap && old->shading == object.shading &&
+                old->reflection == object.reflection) {
+                solid.surface = std::move(before_->compiled.objects[i].surface);
+                continue;
+            }
+            guarded("object " + object.label, object.place, [&] {
+                solid.surface = {.color = decoded(object.color, encoding()),
+                                 .color_texture_wrap = object.color_texture_wrap,
+                                 .shading_plugin = object.shading.name,
+                                 .shading = made<ShadingModel>(object.shading),
+                                 .reflection_plugin = object.reflection.name,
+                                 .reflection = made<ReflectionModel>(object.reflection)};
+            });
+        }
+    }
+
+    /// Problems are reported for an object at the place of its texture. Objects share pictures.
+    void make_textures() {
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+            const Object& object = scene_.objects[i];
+            if (object.color_texture.empty() || compiled_.objects[i].surface.color_texture != nullptr)
+                continue;
+            const Object* const old = object_before(i);
+            if (old != nullptr && old->color_texture == object.color_texture) {
+                compiled_.objects[i].surface.color_texture =
+                    before_->compiled.objects[i].surface.color_texture;
+                continue;
+            }
+            guarded("object " + object.label, object.texture_place, [&] {
+                const auto [known, is_new] = textures_.try_emplace(object.color_texture);
+                if (is_new) {
+                    const TexturePicture read = read_texture(object.color_texture, registry_, encoding());
+                    known->second = read.mip_map;
+                    if (read.was_clamped)
+                        diagnostics_.warning(object.texture_place,
+                                             fmt::format("the texture '{}' has intensities above 1, which "
+                                                         "are clamped: a surface cannot reflect more",
+                                                         object.color_texture));
+                }
+                compiled_.objects[i].surface.color_texture = known->second;
+            });
+        }
+    }
+
+    void require_texture_coordinates(std::size_t i) {
+        const Object& object = scene_.objects[i];
+        // Read errors have been reported already.
+        if (compiled_.objects[i].surface.color_texture == nullptr) return;
+        if (!placed_[i] || !placed_[i]->mesh.u.empty()) return;
+        diagnostics_.error(
+            object.texture_place,
+            fmt::format("object {} has no texture coordinates, which a texture needs", object.label),
+            "remove color_texture, or give the shape texture coordinates");
+    }
+
+    void make_environment() {
+        compiled_.environment = Environment(decoded(scene_.image.background, encoding()));
+        if (scene_.image.environment.empty()) return;
+        if (before_ != nullptr && before_->scene.image.environment == scene_.image.environment) {
+            compiled_.environment = std::move(before_->compiled.environment);
+            return;
+        }
+        guarded("environment", scene_.image.environment_place, [&] {
+            compiled_.environment = read_environment(scene_.image.environment, registry_, encoding());
+        });
+    }
+
+    /// Runs what a shape plugin or a shading model does to an object.
+    template <class Work>
+    void guarded(const Object& object, PluginKind kind, const std::string& plugin, Work work) {
+        guarded("object " + object.label, object.place, [&] {
+            try {
+                work();
+            } catch (const std::bad_alloc&) {
+                throw Error(ErrorCategory::failure, "not enough memory for its triangles");
+            } catch (...) {
+                rethrow_as_plugin_error(kind, plugin);
+            }
+        });
+    }
+
+    /// Whether triangles that are flat need no normals at their vertices.
+    static bool takes_facets(const SurfaceModels& surface) {
+        const ShadingNeeds needs = surface.shading->needs();
+        return needs.default_vertex_normals && surface.shading->shading_rate() != ShadingRate::vertex &&
+               !needs.triangle && !surface.needs().derivatives;
+    }
+
+    void place_shapes() {
+        placed_.resize(scene_.objects.size());
+        const auto has_surface = [&](std::size_t i) {
+            return i < compiled_.objects.size() && compiled_.objects[i].surface.shading != nullptr;
+        };
+        // All are created before the first is placed, so that shapes that read the same file read it once.
+        std::vector<std::unique_ptr<Shape>> shapes(placed_.size());
+        for (std::size_t i = 0; i < placed_.size(); ++i) {
+            const Object& object = scene_.objects[i];
+            if (has_surface(i) && keep(i, compiled_.objects[i].surface.needs())) continue;
+            guarded(object, PluginKind::shape, object.shape.name,
+                    [&] { shapes[i] = made<Shape>(object.shape); });
+        }
+        for (std::size_t i = 0; i < placed_.size(); ++i) {
+            const Object& object = scene_.objects[i];
+            const PointNeeds needs = has_surface(i) ? compiled_.objects[i].surface.needs() : PointNeeds{};
+            if (shapes[i] != nullptr) {
+                guarded(object, PluginKind::shape, object.shape.name, [&] {
+                    placed_[i] =
+                        place(*shapes[i],
+                              {.uv = needs.uv,
+                               .derivatives = needs.derivatives,
+                               .color = true,
+                               .facets = has_surface(i) && takes_facets(compiled_.objects[i].surface),
+                               .color_management = encoding()},
+                              object.transform, [this](double part) { tell(part); });
+                });
+                shapes[i].reset();  // frees a file's triangles before the next file is read
+                if (placed_[i]) warnings_[i] = placed_[i]->warnings;
+                if (has_surface(i)) require_texture_coordinates(i);
+            }
+            say_once(object, warnings_[i]);
+            count_step();
+        }
+    }
+
+    const Object* object_before(std::size_t i) const {
+        return before_ != nullptr ? &before_->scene.objects[i] : nullptr;
+    }
+
+    /// Takes an object's triangles from before, if they are the same and have what its models need.
+    bool keep(std::size_t i, const PointNeeds& needs) {
+        const Object& object = scene_.objects[i];
+        const Object* const old = object_before(i);
+        if (old == nullptr || old->shape != object.shape || old->transform != object.transform ||
+            old->color != object.color || old->encloses != object.encloses || old->shading != object.shading)
+            return false;
+        SolidObject& solid = before_->compiled.objects[i];
+        if (solid.mesh.u.empty() == needs.uv || solid.mesh.dpdu.empty() == needs.derivatives) return false;
+        compiled_.objects[i].mesh = std::move(solid.mesh);
+        compiled_.objects[i].tree = std::move(solid.tree);
+        warnings_[i] = std::move(before_->warnings[i]);
+        ++kept_;
+        return true;
+    }
+
+    /// A hundred objects may come from one file.
+    void say_once(const Object& object, const std::vector<std::string>& warnings) {
+        for (const std::string& warning : warnings) {
+            if (!said_.insert(warning).second) continue;
+            diagnostics_.warning(object.place, fmt::format("object {}: {}", object.label, warning));
+        }
+    }
+
+    void check(const SceneDraft& draft) {
+        std::vector<SurfaceView> surfaces(placed_.size());
+        for (std::size_t i = 0; i < placed_.size(); ++i) {
+            const Mesh* const mesh = placed_[i]                     ? &placed_[i]->mesh
+                                     : i < compiled_.objects.size() ? &compiled_.objects[i].mesh
+                                                                    : nullptr;
+            if (mesh == nullptr || mesh->vertex_count() == 0) continue;
+            surfaces[i] = {mesh->position.span(), mesh->vertex_count(), mesh->indices, mesh->open_edges == 0};
+        }
+        check_constraints(draft, surfaces, diagnostics_, [this] { count_step(); });
+    }
+
+    /// An estimate of the time that one thread takes to finish all objects.
+    double rough_milliseconds() const {
+        constexpr double k_normals = 2e-5, k_tree = 1e-3;  // per triangle
+        double sum = 0;
+        for (std::size_t i = 0; i < placed_.size(); ++i) {
+            if (!placed_[i]) continue;
+            const double each = needs_tree(compiled_.objects[i]) ? k_normals + k_tree : k_normals;
+            sum += each * static_cast<double>(placed_[i]->mesh.triangle_count());
+        }
+        return sum;
+    }
+
+    static bool needs_tree(const SolidObject& solid) {
+        return solid.surface.reflection->shows_surroundings() && !solid.tree;
+    }
+
+    void make_trees() {
+        std::vector<SolidObject*> without;
+        for (SolidObject& solid : compiled_.objects) {
+            if (needs_tree(solid)) without.push_back(&solid);
+        }
+        parallel_for(without.size(), 1, [&](std::size_t first, std::size_t end) {
+            for (std::size_t i = first; i < end; ++i) {
+                const Mesh& mesh = without[i]->mesh;
+                without[i]->tree.emplace(mesh.position.span(), mesh.vertex_count(), mesh.indices);
+            }
+        });
+    }
+
+    void finish(std::size_t i) {
+        const Object& object = scene_.objects[i];
+        SolidObject& solid = compiled_.objects[i];
+        if (placed_[i]) {
+            guarded(object, PluginKind::shading, object.shading.name,
+                    [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
+            multiply(solid.mesh.color, solid.surface.color);
+        }
+        if (object.encloses) {
+            solid.mesh.closed = solid.mesh.one_sided;  // otherwise also seen from inside
+        } else if (!solid.mesh.closed) {
+            diagnostics_.warning(
+                object.place,
+                fmt::format("object {} is not closed ({} open edge{}), so it is drawn from both sides",
+                            object.label, solid.mesh.open_edges, solid.mesh.open_edges == 1 ? "" : "s"));
+        }
+    }
+
+    static void multiply(Vec3Arrays& colors, Rgb by) {
+        for (float& red : colors.x) red *= by.r;
+        for (float& green : colors.y) green *= by.g;
+        for (float& blue : colors.z) blue *= by.b;
+    }
+
+    ColorEncoding encoding() const { return scene_.image.color_management; }
+
+    const Scene& scene_;
+    Registry& registry_;
+    Diagnostics& diagnostics_;
+    const Progress& progress_;
+    std::size_t steps_done_ = 0;
+    Before* before_;        // source of everything unchanged; null: nothing is
+    std::size_t kept_ = 0;  // objects whose triangles were taken
+    CompiledScene compiled_;
+    std::vector<std::optional<PlacedShape>> placed_;
+    std::vector<std::vector<std::string>> warnings_;  // of the objects' shapes
+    std::set<std::string> said_;
+    std::map<std::string, std::shared_ptr<const MipMap>> textures_;  // by file
+};
+
+}  // namespace
+
+std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics,
+                                     int threads, const Progress& progress) {
+    return Compiler(draft, registry, diagnostics, progress).take(threads);
+}
+
+struct FrameCompiler::Kept {
+    Registry& registry;
+    std::optional<Before> before{};
+    bool has_kept_triangles = false;
+};
+
+FrameCompiler::FrameCompiler(Registry& registry) : kept_(std::make_unique<Kept>(Kept{registry})) {}
+FrameCompiler::FrameCompiler(FrameCompiler&&) noexcept = default;
+FrameCompiler& FrameCompiler::operator=(FrameCompiler&&) noexcept = default;
+FrameCompiler::~FrameCompiler() = default;
+
+bool FrameCompiler::has_kept_triangles() const noexcept { return kept_->has_kept_triangles; }
+
+const CompiledScene* FrameCompiler::compile(const SceneDraft& draft, Diagnostics& diagnostics, int threads) {
+    // If this one throws, nothing of the previous frame is kept.
+    std::optional<Before> before = std::exchange(kept_->before, std::nullopt);
+    const Progress silent;
+    Compiler compiler(draft, kept_->registry, diagnostics, silent, before ? &*before : nullptr);
+    kept_->has_kept_triangles = compiler.has_kept_triangles();
+    auto compiled = compiler.take(threads);
+    if (!compiled) return nullptr;
+    kept_->before = Before{draft.scene, *std::move(compiled), compiler.take_warnings()};
+    return &kept_->before->compiled;
+}
+
+std::optional<CompiledScene> compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics,
+                                     int threads) {
+    return compile(SceneDraft{.scene = scene}, registry, diagnostics, threads);
+}
+
+}  // namespace candela

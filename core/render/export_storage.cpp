@@ -1,0 +1,190 @@
+module;
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+module candela.render;
+
+import :export_storage;
+import candela.api;
+import candela.util;
+
+namespace candela {
+
+namespace {
+
+/// A value as written in a scene, in the form in which values cross to plugins.
+ParamValue written_value(const Value& value, const Parameter& parameter) {
+    ParamValue result;
+    if (const auto* boolean = std::get_if<bool>(&value)) result.integer = *boolean ? 1 : 0;
+    if (const auto* whole = std::get_if<std::int64_t>(&value))
+        result.integer = static_cast<std::int32_t>(*whole);
+    if (const auto* real = std::get_if<double>(&value)) result.number[0] = static_cast<float>(*real);
+    if (const auto* vector = std::get_if<Vec3>(&value)) {
+        result.number[0] = vector->x;
+        result.number[1] = vector->y;
+        result.number[2] = vector->z;
+    }
+    if (const auto* rows = std::get_if<Matrix>(&value)) std::ranges::copy(*rows, result.number);
+    if (const auto* list = std::get_if<NumberList>(&value)) result.list = *list;
+    if (const auto* text = std::get_if<std::string>(&value)) {
+        if (parameter.type == ParamType::choice) {
+            const auto at = std::ranges::find(parameter.choices, *text);
+            result.integer = static_cast<std::int32_t>(at - parameter.choices.begin());
+        } else {
+            result.text = text->c_str();
+        }
+    }
+    return result;
+}
+
+/// Whether a parameter is a table of the plugin's kernel, which has neither texts nor lists.
+bool is_table(const PluginDescriptor& plugin, std::size_t parameter) {
+    const ParamType type = plugin.parameters[parameter].type;
+    return (type == ParamType::file || type == ParamType::numbers) &&
+           std::ranges::find(plugin.kernel.members, parameter) != plugin.kernel.members.end();
+}
+
+bool are_equal(const Vec3Arrays& a, const Vec3Arrays& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
+ExportedMesh view_of(const Mesh& mesh, const PlacedShape& shape) {
+    const auto span_of = [](const Vec3Arrays& arrays) {
+        return arrays.empty() ? ConstVec3Span{} : arrays.span();
+    };
+    return {.vertex_count = mesh.vertex_count(),
+            .indices = mesh.indices,
+            .position = mesh.position.span(),
+            .authored_normal = span_of(shape.authored_normal),
+            .smooth_group = shape.smooth_group,
+            .uv = mesh.u.empty() ? ConstVec2Span{} : ConstVec2Span{mesh.u.data(), mesh.v.data()},
+            .color = span_of(mesh.color),
+            .dpdu = span_of(mesh.dpdu),
+            .dpdv = span_of(mesh.dpdv),
+            .closed = mesh.closed};
+}
+
+}  // namespace
+
+ExportedMesh ExportStorage::in_object_space(std::size_t object) {
+    placed = place(*objects[object].tessellator, request(true), {});
+    require_no_colors(object);
+    return view_of(placed.mesh, placed);
+}
+
+ExportedMesh ExportStorage::in_world_space(std::size_t object) {
+    normal_sets.clear();
+    normals_of.clear();
+    const Object& from = objects[object];
+    placed = place(*from.tessellator, request(scene.needs_uv), from.transform);
+    require_no_colors(object);
+    make_face_normals(placed.mesh);
+    std::vector<std::unique_ptr<ShadingModel>> models;
+    for (std::size_t i = 0; i < scene.shadings.size(); ++i)
+        models.push_back(registry.create<ShadingModel>(scene.shadings[i].plugin->name, from.shading_values[i],
+                                                       scene.image.color_management));
+    std::vector<Vec3Arrays> all(models.size());
+    parallel_for(models.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) all[i] = vertex_normals(placed, *models[i]);
+    });
+    for (Vec3Arrays& normals : all) {
+        const auto same =
+            std::ranges::find_if(normal_sets, [&](const Vec3Arrays& set) { return are_equal(set, normals); });
+        normals_of.push_back(static_cast<std::size_t>(same - normal_sets.begin()));
+        if (same == normal_sets.end()) normal_sets.push_back(std::move(normals));
+    }
+    normals_view.clear();
+    for (const Vec3Arrays& set : normal_sets) normals_view.push_back(set.span());
+    ExportedMesh view = view_of(placed.mesh, placed);
+    view.normals = normals_view;
+    view.normals_of = normals_of;
+    return view;
+}
+
+MeshRequest ExportStorage::request(bool needs_uv) const {
+    return {.uv = needs_uv,
+            .derivatives = scene.needs_derivatives,
+            .color = true,
+            .color_management = scene.image.color_management};
+}
+
+void ExportStorage::require_no_colors(std::size_t object) const {
+    if (has_vertex_colors || placed.mesh.color.empty()) return;
+    throw Error(ErrorCategory::failure, fmt::format("object {} has vertex colours, which this target does "
+                                                    "not support; vertex_colors = false removes them",
+                                                    scene.objects[object].label));
+}
+
+bool ExportStorage::has_default_normals(std::size_t object, std::size_t shading) {
+    struct Default final : ShadingModel {
+        ShadingRate shading_rate() const noexcept override { return {}; }
+        void normals(const ShadingPointBatch&, const Vec3Span&) const override {}
+    };
+    const Object& from = objects[object];
+    const auto model = registry.create<ShadingModel>(
+        scene.shadings[shading].plugin->name, from.shading_values[shading], scene.image.color_management);
+    const Mesh expected = build_mesh(*from.tessellator, {}, from.transform, Default());
+    const Mesh actual = build_mesh(*from.tessellator, {}, from.transform, *model);
+    return std::ranges::equal(expected.vertices, actual.vertices, {}, &MeshVertex::normal,
+                              &MeshVertex::normal);
+}
+
+ExportedValues ExportStorage::kept(const ParamSet& values) {
+    const ParamSet& set = sets.emplace_back(values);
+    std::vector<ParamValue> written;
+    for (std::size_t i = 0; i < set.schema().size(); ++i)
+        written.push_back(set.get(i) ? written_value(*set.get(i), set.schema()[i]) : ParamValue{});
+    return {.written = numbers.emplace_back(std::move(written)),
+            .delivered = numbers.emplace_back(set.delivered(scene.image.color_management))};
+}
+
+bool ExportStorage::has_tables(const PluginDescriptor& plugin) {
+    return std::ranges::any_of(plugin.kernel.members,
+                               [&](std::size_t parameter) { return is_table(plugin, parameter); });
+}
+
+void ExportStorage::put_tables(const PluginDescriptor& plugin, const Instance& instance) {
+    std::vector<ParamValue>& delivered = numbers.back();
+    for (std::size_t i = 0; i < delivered.size(); ++i) {
+        if (!is_table(plugin, i)) continue;
+        const std::span<const float> table = instance.table(i);
+        if (!std::ranges::all_of(table, [](float x) { return std::isfinite(x); }))
+            throw Error(ErrorCategory::failure,
+                        fmt::format("plugin {}/{}: the table of '{}' has a non-finite number",
+                                    name_of(plugin.kind), plugin.name, plugin.parameters[i].name));
+        put_table(table, delivered[i]);
+    }
+}
+
+void ExportStorage::put_table(std::span<const float> table, ParamValue& value) {
+    const auto same = std::ranges::search(tables, table);
+    const auto first = static_cast<std::size_t>(same.begin() - tables.begin());
+    if (same.empty()) tables.insert(tables.end(), table.begin(), table.end());
+    // The largest number up to which floats count exactly.
+    if (tables.size() > std::size_t{1} << 24)
+        throw Error(ErrorCategory::failure,
+                    "the tables of the scene's models have more than 16777216 numbers, the limit of "
+                    "generated programs");
+    value.integer = static_cast<std::int32_t>(table.empty() ? 0 : first);
+    placed_tables.push_back({&value, table.size()});
+}
+
+void ExportStorage::connect_tables() {
+    for (const PlacedTable& placed_table : placed_tables) {
+        ParamValue& value = *placed_table.value;
+        value.list = std::span<const float>(tables).subspan(static_cast<std::size_t>(value.integer),
+                                                            placed_table.size);
+    }
+    scene.tables = tables;
+}
+
+}  // namespace candela

@@ -1,0 +1,359 @@
+module;
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+module candela.render;
+
+import :export_storage;
+import candela.api;
+import candela.plugins;
+import candela.raster;
+import candela.shading;
+import candela.util;
+
+namespace candela {
+
+namespace {
+
+constexpr const char* k_no_kernel =
+    "has no kernel, the text from which its mathematics is generated; programs can be generated only with "
+    "models that have one";
+
+std::string name_in(const std::string& label) {
+    const std::string_view name = name_of_label(label).value_or(label);
+    // Targets write labels into comments and pages: a line break would end them.
+    std::string shown;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        shown += byte < 0x20 || byte == 0x7f ? fmt::format("\\u{{{:x}}}", byte) : std::string(1, c);
+    }
+    return shown;
+}
+
+/// Puts the models of one kind into a list, each once.
+template <class Exported>
+std::size_t put(std::vector<Exported>& list, const Exported& model) {
+    const auto found = std::ranges::find(list, model.plugin, &Exported::plugin);
+    if (found != list.end()) return static_cast<std::size_t>(found - list.begin());
+    list.push_back(model);
+    return list.size() - 1;
+}
+
+bool has_function(const PluginDescriptor& plugin, std::string_view name) {
+    return std::ranges::any_of(plugin.kernel.functions,
+                               [&](const KernelFunction& function) { return name == function.name; });
+}
+
+/// Fills a SceneExport.
+class Exporter {
+  public:
+    Exporter(ExportStorage& to, const Scene& scene, const ExportRequest& request)
+        : to_(to), registry_(to.registry), scene_(scene), request_(request) {}
+
+    void run() {
+        to_.has_vertex_colors = request_.abilities.vertex_colors;
+        set_image();
+        for (const LightSource& light : scene_.lights) add(light);
+        for (const Object& object : scene_.objects) add_models(object);
+        for (const std::string& name : request_.extra_models) add_extra(name);
+        to_.objects.reserve(scene_.objects.size());
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) add(i);
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+            to_.exported_objects[i].shadings = to_.objects[i].shadings;
+            to_.exported_objects[i].materials = to_.objects[i].materials;
+        }
+        ExportedScene& result = to_.scene;
+        result.title = to_.title.c_str();
+        result.light_models = to_.light_models;
+        result.lights = to_.lights;
+        result.shadings = to_.shadings;
+        result.reflections = to_.reflections;
+        result.objects = to_.exported_objects;
+        result.textures = to_.textures;
+        result.needs_uv = !to_.textures.empty() ||
+                          std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.uv; }) ||
+                          std::ranges::any_of(to_.reflections, &ExportedReflection::needs_uv);
+        result.needs_derivatives =
+            std::ranges::any_of(to_.reflections, &ExportedReflection::needs_tangent) ||
+            std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.derivatives; });
+        to_.connect_tables();
+        result.geometry = &to_;
+    }
+
+  private:
+    void set_image() {
+        const ImageSettings& image = scene_.image;
+        if (!image.environment.empty() && !request_.abilities.surroundings) {
+            throw Error(ErrorCategory::failure,
+                        "[image] environment: the background of a generated program is one colour, not an "
+                        "environment map");
+        }
+        to_.title = request_.title;
+        to_.environment = image.environment;
+        for (const SamplePosition& s : sample_pattern(image.samples))
+            to_.samples.push_back({static_cast<float>(s.x) / 16, static_cast<float>(s.y) / 16});
+        to_.scene.image = {.width = image.width,
+                           .height = image.height,
+                           .samples = to_.samples,
+                           .background = image.background,
+                           .environment = to_.environment.c_str(),
+                           .color_management = image.color_management};
+        to_.scene.room = {scene_.room.width, scene_.room.height, scene_.room.depth};
+        const Observer observer = fitted(scene_.observer, image.width, image.height);
+        to_.scene.observer = {.position = observer.position,
+                              .look_at = observer.look_at,
+                              .up = observer.up,
+                              .projection = observer.projection,
+                              .fov = observer.fov,
+                              .height = observer.height,
+                              .unfitted_fov = scene_.observer.fov,
+                              .unfitted_height = scene_.observer.height};
+    }
+
+    template <class Interface>
+    std::unique_ptr<Interface> made(const std::string& name, const ParamSet& values) {
+        return registry_.create<Interface>(name, values, scene_.image.color_management);
+    }
+
+    /// The loaded plugin.
+    const PluginDescriptor& plugin(PluginKind kind, const std::string& name) {
+        return *registry_.require(kind, name).descriptor;
+    }
+
+    /// Like plugin(), for a model whose kernel must have these functions if the target needs kernels.
+    const PluginDescriptor& model(PluginKind kind, const std::string& name,
+                                  const std::vector<const char*>& functions) {
+        const PluginDescriptor& loaded = plugin(kind, name);
+        if (request_.abilities.models_without_kernel) return loaded;
+        const std::string id = fmt::format("{}/{}", name_of(kind), name);
+        if (loaded.kernel.text == nullptr)
+            throw Error(ErrorCategory::failure, fmt::format("{} {}", id, k_no_kernel));
+        for (const char* const function : functions) {
+            if (has_function(loaded, function)) continue;
+            throw Error(ErrorCategory::failure, fmt::format("{}: its kernel has no function {}_{}", id,
+                                                            loaded.kernel.prefix, function));
+        }
+        return loaded;
+    }
+
+    const char* kept(std::string label) { return to_.labels.emplace_back(std::move(label)).c_str(); }
+
+    void add(const LightSource& light) {
+        const auto made_light = made<Light>(light.model.name, light.model.parameters);
+        std::vector<const char*> functions;
+        if (made_light->sample_count() > 0) functions.push_back("illuminate");
+        if (made_light->has_ambient()) functions.push_back("illuminate_ambient");
+        const PluginDescriptor& loaded = model(PluginKind::light, light.model.name, functions);
+        to_.lights.push_back({.label = kept(light.label),
+                              .model = put(to_.light_models, ExportedModel{&loaded}),
+                              .values = to_.kept(loaded, light.model.parameters,
+                                                 [&]() -> const Light* { return made_light.get(); })});
+        add_data(*made_light, to_.lights.back());
+    }
+
+    /// A light's description of itself as data.
+    void add_data(const Light& from, ExportedLight& to) {
+        std::vector<PunctualLight> samples(static_cast<std::size_t>(from.sample_count()));
+        for (std::size_t i = 0; i < samples.size(); ++i)
+            if (!from.describe(static_cast<int>(i), samples[i])) return;
+        Rgb ambient{};
+        if (from.has_ambient() && !from.describe_ambient(ambient)) return;
+        to.ambient = ambient;
+        to.punctual = to_.punctual.emplace_back(std::move(samples));
+        to.is_data = true;
+    }
+
+    void add_shading(const std::string& name, const ParamSet& values) {
+        const auto instance = made<ShadingModel>(name, values);
+        ExportedShading exported;
+        exported.plugin = &model(PluginKind::shading, name, {"normal"});
+        exported.rate = instance->shading_rate();
+        exported.needs = instance->needs();
+        if (exported.needs.triangle && !request_.abilities.triangle &&
+            !request_.abilities.models_without_kernel) {
+            throw Error(ErrorCategory::failure, fmt::format("shading/{} reads the vertices of its triangle, "
+                                                            "which this target's programs do not provide",
+                                                            name));
+        }
+        put(to_.shadings, exported);
+    }
+
+    void add_reflection(const std::string& name, const ParamSet& values) {
+        const auto instance = made<ReflectionModel>(name, values);
+        ExportedReflection exported;
+        exported.needs_tangent = instance->needs_tangent();
+        exported.needs_position = instance->needs_position();
+        exported.needs_uv = instance->needs_uv();
+        exported.shows_surroundings = instance->shows_surroundings();
+        if (exported.shows_surroundings && !request_.abilities.surroundings) {
+            throw Error(ErrorCategory::failure,
+                        fmt::format("reflection/{} shows what is behind and around an object by following "
+                                    "rays through it; generated programs do not do that",
+                                    name));
+        }
+        exported.plugin = &model(PluginKind::reflection, name, {"reflect", "reflect_ambient"});
+        put(to_.reflections, exported);
+    }
+
+    void add_models(const Object& object) {
+        try {
+            add_shading(object.shading.name, object.shading.parameters);
+            add_reflection(object.reflection.name, object.reflection.parameters);
+        } catch (const Error& problem) {
+            throw Error(problem.category(), fmt::format("object {}: {}", object.label, problem.what()));
+        }
+    }
+
+    void add_default(PluginKind kind, const std::string& name) {
+        const ParamSet values = registry_.parameters(kind, name);
+        kind == PluginKind::shading ? add_shading(name, values) : add_reflection(name, values);
+    }
+
+    void add_extra(const std::string& name) {
+        constexpr PluginKind k_kinds[] = {PluginKind::shading, PluginKind::reflection};
+        if (name == "all") {
+            for (const PluginKind kind : k_kinds) {
+                for (const std::string& each : registry_.names(kind)) {
+                    try {
+                        add_default(kind, each);
+                    } catch (const Error&) {
+                        continue;  // "all" means those that can be exported
+                    }
+                }
+            }
+            return;
+        }
+        bool is_known = false;
+        std::vector<std::string> names;
+        for (const PluginKind kind : k_kinds) {
+            for (const std::string& each : registry_.names(kind)) {
+                names.push_back(each);
+                if (each != name && fmt::format("{}/{}", name_of(kind), each) != name) continue;
+                add_default(kind, each);
+                is_known = true;
+            }
+        }
+        if (is_known) return;
+        const std::string meant = suggestion(name, names);
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("no reflection or shading model is called '{}'{}", name,
+                                meant.empty() ? "" : "; " + meant),
+                    meant.empty() ? Help{Help::Topic::all_plugins} : Help{});
+    }
+
+    /// The scene with that model for all objects, or nothing if it is invalid with it. Each model is
+    /// requested once.
+    const std::optional<Scene>& with(PluginKind kind, const std::string& name) {
+        const auto at = with_.find({kind, name});
+        if (at != with_.end()) return at->second;
+        auto scene = request_.with_model ? request_.with_model(kind, name) : std::nullopt;
+        if (scene && scene->objects.size() != scene_.objects.size()) scene.reset();
+        return with_.emplace(std::pair(kind, name), std::move(scene)).first->second;
+    }
+
+    /// An object's values for a model that is not its own: those that `--shading` and `--reflection` would
+    /// give it. If the scene is invalid with them, because the other model does not know a word of the
+    /// object's own: the defaults.
+    ParamSet values_for(PluginKind kind, const std::string& name, std::size_t index) {
+        const auto& scene = with(kind, name);
+        if (!scene) return registry_.parameters(kind, name);
+        const Object& object = scene->objects[index];
+        return kind == PluginKind::shading ? object.shading.parameters : object.reflection.parameters;
+    }
+
+    /// The index of an object's texture; objects share them.
+    std::size_t texture_of(const Object& object) {
+        if (object.color_texture.empty()) return ExportedObject::k_no_texture;
+        if (!request_.abilities.textures)
+            throw Error(
+                ErrorCategory::failure,
+                fmt::format(
+                    "object {} has a texture, which this target does not support; remove color_texture",
+                    object.label));
+        for (std::size_t i = 0; i < to_.textures.size(); ++i)
+            if (to_.textures[i].file == object.color_texture) return i;
+        const auto& mip_map = to_.mip_maps.emplace_back(
+            read_texture(object.color_texture, registry_, scene_.image.color_management).mip_map);
+        auto& levels = to_.levels.emplace_back();
+        for (const MipMap::Level& level : mip_map->levels()) {
+            const auto texels =
+                static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
+            levels.push_back(
+                {level.width, level.height, mip_map->texels().subspan(4 * level.first, 4 * texels)});
+        }
+        to_.textures.push_back({kept(object.color_texture), levels});
+        return to_.textures.size() - 1;
+    }
+
+    void add(std::size_t index) {
+        const Object& object = scene_.objects[index];
+        auto& own = to_.objects.emplace_back();
+        own.tessellator = made<Shape>(object.shape.name, object.shape.parameters);
+        own.transform = object.transform;
+        ExportedObject exported{
+            .label = kept(name_in(object.label)),
+            .color = object.color,
+            .shape = {&plugin(PluginKind::shape, object.shape.name)},
+            .shape_values = to_.kept(plugin(PluginKind::shape, object.shape.name), object.shape.parameters,
+                                     [&]() -> const Shape* { return own.tessellator.get(); }),
+            .transform = object.transform,
+            .color_texture = texture_of(object),
+            .color_texture_repeats = object.color_texture_wrap == TextureWrap::repeat};
+        for (std::size_t i = 0; i < to_.shadings.size(); ++i) {
+            const std::string name = to_.shadings[i].plugin->name;
+            const bool is_own = name == object.shading.name;
+            if (is_own) exported.shading = i;
+            own.shading_values.push_back(is_own ? object.shading.parameters
+                                                : values_for(PluginKind::shading, name, index));
+            own.shadings.push_back(to_.kept(*to_.shadings[i].plugin, own.shading_values.back(), [&] {
+                return made<ShadingModel>(name, own.shading_values.back());
+            }));
+        }
+        for (std::size_t i = 0; i < to_.reflections.size(); ++i) {
+            const std::string name = to_.reflections[i].plugin->name;
+            const bool is_own = name == object.reflection.name;
+            if (is_own) exported.reflection = i;
+            const ParamSet values =
+                is_own ? object.reflection.parameters : values_for(PluginKind::reflection, name, index);
+            own.materials.push_back(to_.kept(*to_.reflections[i].plugin, values,
+                                             [&] { return made<ReflectionModel>(name, values); }));
+        }
+        to_.exported_objects.push_back(exported);
+    }
+
+    ExportStorage& to_;
+    Registry& registry_;
+    const Scene& scene_;
+    const ExportRequest& request_;
+    std::map<std::pair<PluginKind, std::string>, std::optional<Scene>> with_;
+};
+
+}  // namespace
+
+struct SceneExport::Storage final : ExportStorage {
+    using ExportStorage::ExportStorage;
+};
+
+SceneExport::SceneExport(const Scene& scene, const ExportRequest& request, Registry& registry)
+    : storage_(std::make_unique<Storage>(registry)) {
+    Exporter(*storage_, scene, request).run();
+}
+
+SceneExport::SceneExport(SceneExport&&) noexcept = default;
+SceneExport& SceneExport::operator=(SceneExport&&) noexcept = default;
+SceneExport::~SceneExport() = default;
+
+const ExportedScene& SceneExport::scene() const noexcept { return storage_->scene; }
+
+}  // namespace candela

@@ -1,0 +1,107 @@
+module;
+
+#include "candela/plugin/export.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+export module candela.render:film;
+
+import candela.api;
+import candela.plugins;
+import candela.util;
+
+export namespace candela {
+
+/// Rows of a picture, from `first` up to but not including `end`.
+struct RowRange {
+    int first = 0;
+    int end = 0;
+
+    inline int count() const noexcept { return end - first; }
+    friend bool operator==(const RowRange&, const RowRange&) = default;
+};
+
+/// The picture being made, with pixels in the form of its file format: 8-bit, clamped and encoded, or 32-bit
+/// float, as computed.
+class CANDELA_EXPORT Film {
+  public:
+    /// Throws Error if memory is insufficient.
+    Film(int width, int height, PixelType pixels, ColorEncoding encoding);
+    /// Only these rows of a picture of that size.
+    Film(int width, int height, PixelType pixels, ColorEncoding encoding, RowRange rows);
+
+    int width() const noexcept { return width_; }
+    /// The height of the whole picture.
+    int height() const noexcept { return height_; }
+    RowRange rows() const noexcept { return rows_; }
+
+    /// Stores a rectangle of intensities, with rows `stride` apart. Rows outside the film are skipped.
+    /// Different threads may store different pixels at the same time.
+    void store(int x, int y, int width, int height, ConstVec3Span intensity, int stride);
+
+    /// Stores one intensity in all pixels of a rectangle, like store().
+    void fill(int x, int y, int width, int height, Rgb intensity);
+
+    /// Copies another film's pixels unchanged, its upper left corner to (x, y). Both are whole pictures with
+    /// pixels of the same type, and `other` lies within this one.
+    void paste(int x, int y, const Film& other);
+
+    /// All rows of the film.
+    PictureView view() const noexcept;
+
+  private:
+    std::size_t index_of(int x, int y) const noexcept;
+
+    int width_;
+    int height_;
+    RowRange rows_;
+    PixelType pixels_;
+    ColorEncoding encoding_;
+    AlignedVector<std::uint8_t> bytes_;
+    AlignedVector<float> reals_;
+};
+
+/// The plugin that writes a picture, and the form in which it requires the pixels.
+struct PictureFormat {
+    std::string plugin;
+    std::string extension;
+    PixelType pixels = PixelType::byte;
+    bool has_layers = false;
+    ParamSet parameters{};  // of the plugin
+};
+
+/// The format of a path, by its extension, with the plugin's default parameters; "-", standard output, is
+/// PNG. Throws Error for an extension that no plugin writes.
+CANDELA_EXPORT PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
+
+/// Writes the picture atomically, through an OutputFile; `existing` and `links` say how to treat an existing
+/// file and a link.
+/// Plugins that encode on several threads use those of with_threads(). Throws Error.
+CANDELA_EXPORT void write_picture(const Film& film, const PictureFormat& format,
+                                  const std::filesystem::path& path, Registry& registry,
+                                  Existing existing = Existing::replaced, Links links = Links::followed);
+
+/// Like the above, into a file that the caller finishes.
+CANDELA_EXPORT void write_picture(const Film& film, const PictureFormat& format, OutputFile& file,
+                                  Registry& registry);
+
+/// Whether write_rows() can write the format without the whole picture in memory.
+CANDELA_EXPORT bool can_write_rows(const PictureFormat& format, Registry& registry);
+
+/// Writes the same bytes as write_picture(), for a picture that need not be in memory. `whole`: the picture
+/// without its pixels. Throws Error.
+CANDELA_EXPORT void write_rows(const PictureView& whole, PictureRows& rows, const PictureFormat& format,
+                               const std::filesystem::path& path, Registry& registry,
+                               Existing existing = Existing::replaced);
+
+/// Writes a picture with layers in the same way, in a format that supports them.
+CANDELA_EXPORT void write_layers(int width, int height, std::span<const PictureChannel> channels,
+                                 const PictureFormat& format, const std::filesystem::path& path,
+                                 Registry& registry, Existing existing = Existing::replaced);
+
+}  // namespace candela

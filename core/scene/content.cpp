@@ -1,0 +1,40 @@
+module;
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+module candela.scene;
+
+import candela.api;
+import candela.plugins;
+
+namespace candela {
+
+std::optional<std::string_view> name_of_label(std::string_view label) noexcept {
+    const bool is_quoted = label.size() > 2 && label.front() == '\'' && label.back() == '\'';
+    if (!is_quoted) return std::nullopt;
+    return label.substr(1, label.size() - 2);
+}
+
+Observer fitted(Observer observer, int width, int height) {
+    const double aspect = static_cast<double>(width) / height, frame = double{observer.frame_aspect};
+    observer.frame_aspect = 0;
+    if (aspect >= frame) return observer;
+    constexpr double k_half_degree = std::numbers::pi / 360;
+    const double widening = frame / aspect;
+    observer.height = static_cast<float>(widening * observer.height);
+    observer.fov =
+        static_cast<float>(std::atan(widening * std::tan(observer.fov * k_half_degree)) / k_half_degree);
+    return observer;
+}
+
+bool operator==(const Scene& a, const Scene& b) {
+    return a.room == b.room && a.observer == b.observer && a.image == b.image &&
+           a.constraints == b.constraints && a.lights == b.lights && a.objects == b.objects &&
+           a.animation == b.animation;
+}
+
+}  // namespace candela

@@ -1,0 +1,154 @@
+// The contents of a scene.
+module;
+
+#include "candela/plugin/export.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+export module candela.scene:content;
+
+import :animation;
+import candela.api;
+import candela.plugins;
+import candela.util;
+
+export namespace candela {
+
+/// An axis-aligned box centred on the origin: x within width/2, y (up) within height/2, z within depth/2.
+/// Metres.
+struct Room {
+    float height = 10;
+    float width = 10;
+    float depth = 10;
+
+    friend bool operator==(const Room&, const Room&) = default;
+};
+
+/// How strictly a scene as a whole is checked.
+struct ConstraintSettings {
+    std::optional<Severity> overlap = Severity::error;  // of objects with each other; none: not checked
+
+    friend bool operator==(const ConstraintSettings&, const ConstraintSettings&) = default;
+};
+
+struct Observer {
+    Vec3 position;
+    Vec3 look_at;
+    Vec3 up{0, 1, 0};
+    Projection projection = Projection::perspective;
+    float fov = 40;    // perspective: full vertical angle, degrees
+    float height = 4;  // orthographic: height of the view, metres
+    /// The aspect ratio (width to height) of the frame that every picture shows completely; 0: none, and a
+    /// narrow picture crops the sides.
+    float frame_aspect = 0;
+    SourcePlace position_place{};
+
+    /// Ignores positions in the file.
+    friend inline bool operator==(const Observer& a, const Observer& b) {
+        return a.position == b.position && a.look_at == b.look_at && a.up == b.up &&
+               a.projection == b.projection && a.fov == b.fov && a.height == b.height &&
+               a.frame_aspect == b.frame_aspect;
+    }
+};
+
+/// The observer for a picture of that size: if it is narrower than the frame, it shows more above and below
+/// instead of less at the sides.
+CANDELA_EXPORT Observer fitted(Observer observer, int width, int height);
+
+struct ImageSettings {
+    int width = 512;
+    int height = 512;
+    int samples = 1;
+    Vec3 background;            // 0-255
+    std::string environment{};  // absolute path of an equirectangular environment map; empty: the background
+    SourcePlace environment_place{};
+    ColorEncoding color_management = ColorEncoding::srgb;
+
+    /// Ignores positions in the file.
+    friend inline bool operator==(const ImageSettings& a, const ImageSettings& b) {
+        return a.width == b.width && a.height == b.height && a.samples == b.samples &&
+               a.background == b.background && a.environment == b.environment &&
+               a.color_management == b.color_management;
+    }
+};
+
+/// A plugin with values for its parameters.
+struct Model {
+    std::string name;
+    ParamSet parameters;
+
+    friend bool operator==(const Model&, const Model&) = default;
+};
+
+/// The name in a label of a light or an object: lamp in 'lamp'. None if the label is an index.
+CANDELA_EXPORT std::optional<std::string_view> name_of_label(std::string_view label) noexcept;
+
+struct LightSource {
+    std::string label;  // 'lamp', as the scene's author calls it, or an index
+    Model model;
+    SourcePlace place;
+    SourcePlace position_place{};  // of its 'position', or of the whole light
+
+    /// Ignores positions in the file.
+    friend inline bool operator==(const LightSource& a, const LightSource& b) {
+        return a.label == b.label && a.model == b.model;
+    }
+};
+
+/// How a texture continues outside its edges.
+enum class TextureWrap : int {
+    repeat,  // the picture again
+    clamp,   // the colours at its edge
+};
+
+struct Object {
+    std::string label;
+    Model shape;
+    Transform transform;
+    Vec3 color;                   // 0-255
+    std::string color_texture{};  // absolute path of a picture that multiplies `color`; empty: none
+    TextureWrap color_texture_wrap = TextureWrap::repeat;
+    bool encloses = false;  // others may be inside; drawn from both sides
+    Model shading;
+    Model reflection;
+    SourcePlace place;
+    SourcePlace position_place{};  // of its 'position', or of the whole object
+    SourcePlace texture_place{};   // of its 'color_texture', or of the whole object
+
+    /// Ignores positions in the file.
+    friend inline bool operator==(const Object& a, const Object& b) {
+        return a.label == b.label && a.shape == b.shape && a.transform == b.transform && a.color == b.color &&
+               a.color_texture == b.color_texture && a.color_texture_wrap == b.color_texture_wrap &&
+               a.encloses == b.encloses && a.shading == b.shading && a.reflection == b.reflection;
+    }
+};
+
+/// One frame, if it is animated. Every value has been checked; every plugin named is installed (none is
+/// loaded). Constraints that depend on triangles come later: candela.geometry.
+struct Scene {
+    Room room;
+    Observer observer;
+    ImageSettings image;
+    ConstraintSettings constraints;
+    std::vector<LightSource> lights;
+    std::vector<Object> objects;
+    std::optional<Animation> animation{};  // of which this is one frame
+
+    friend CANDELA_EXPORT bool operator==(const Scene& a, const Scene& b);
+};
+
+/// The part of a scene that was understood, so that the rest can be checked as well.
+struct SceneDraft {
+    Scene scene;  // without lights and objects whose kind, shape or position is unknown
+    bool has_room = true;
+    bool has_observer = true;                    // its position is known
+    bool is_complete = true;                     // there were no errors
+    SourcePlace picture_place{};                 // of the setting that determines the picture's size
+    std::vector<std::filesystem::path> files{};  // all files that were read, as absolute paths
+};
+
+}  // namespace candela

@@ -1,0 +1,54 @@
+module;
+
+#include <optional>
+#include <string>
+#include <vector>
+
+module candela.scene:models;
+
+import :content;
+import :request;
+import :tables;
+import :toml;
+import :validation;
+import candela.plugins;
+import candela.util;
+
+namespace candela {
+
+inline constexpr const char* k_default_shading = "phong";
+inline constexpr const char* k_default_reflection = "phong";
+
+/// Chooses each object's shading and reflection model: the command line's, its own, the scene's, or (R12,
+/// R13) the default, if the user agrees.
+class ModelChooser {
+  public:
+    ModelChooser(const SceneRequest& request, SceneTables& tables);
+
+    /// The name is empty if there is none, which has been reported.
+    Model shading_for(const TableNode& object);
+    Model reflection_for(const TableNode& object, const std::string& label, const SourcePlace& place);
+
+  private:
+    /// A model's name, and where it stands.
+    struct Named {
+        std::string name;
+        SourcePlace place;
+    };
+    std::optional<Named> named(const std::string& table, const std::optional<ModelSetting>& setting);
+    std::optional<Named> named_by(const TableNode& object, const std::string& key,
+                                  const std::optional<ModelSetting>& setting) const;
+    bool is_missing(const std::string& table) const;
+    void use_defaults_if_agreed();
+    void read_shading_table();
+    void report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,
+                                      const TableContext& context);
+    std::vector<std::string> models_with(const std::string& key);
+
+    const SceneRequest& request_;
+    SceneTables& tables_;
+    std::optional<Named> shading_, reflection_;
+    std::optional<ParamSet> shading_parameters_;
+};
+
+}  // namespace candela

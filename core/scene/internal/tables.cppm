@@ -1,0 +1,71 @@
+// Reads the tables of a scene in a common way.
+module;
+
+#include <initializer_list>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+module candela.scene:tables;
+
+import :merge;
+import :schema;
+import :toml;
+import :validation;
+import candela.api;
+import candela.plugins;
+import candela.util;
+
+namespace candela {
+
+/// The schema of one of the scene's own tables.
+const TableSchema& schema_of(std::string_view table);
+
+/// `keys`, and the names of the parameters.
+std::vector<std::string> names_in(std::span<const Parameter> schema, std::vector<std::string> keys = {});
+
+/// The parameter of that name, or null.
+const Parameter* parameter_named(std::span<const Parameter> schema, std::string_view name);
+
+// Values of a set, by name; they must be set.
+float real(const ParamSet& set, std::string_view name);
+int integer(const ParamSet& set, std::string_view name);
+bool boolean(const ParamSet& set, std::string_view name);
+Vec3 vector(const ParamSet& set, std::string_view name);
+const std::string& text(const ParamSet& set, std::string_view name);
+bool has(const ParamSet& set, std::string_view name);
+
+/// The tables of a document, and what applies to all of them.
+class SceneTables {
+  public:
+    SceneTables(const MergedDocument& document, Registry& registry, Diagnostics& diagnostics);
+
+    const TableNode& root() const { return root_; }
+    const SourcePlace& whole() const { return whole_; }
+    Registry& registry() { return registry_; }
+    Diagnostics& diagnostics() { return diagnostics_; }
+
+    /// A table that may occur once; null if it is missing or is not a table, which is reported the first
+    /// time.
+    const TableNode* single(const std::string& name);
+    TableContext context_of(const std::string& name) const;
+    /// All values of a table without a plugin.
+    ParamSet read_plain(const std::string& name);
+    /// Whether the table is valid as such, or missing, and all of these keys have valid values.
+    bool has_valid(const std::string& name, std::initializer_list<std::string_view> keys);
+    /// The installed plugin of that name, or null, with a message at `place`.
+    const PluginFile* known(PluginKind kind, const std::string& name, const SourcePlace& place);
+    /// A plugin's parameters, including the relations between them.
+    ParamSet read_plugin(const TableNode& table, const PluginFile& plugin, const TableContext& context);
+
+  private:
+    const TableNode& root_;
+    SourcePlace whole_;
+    Registry& registry_;
+    Diagnostics& diagnostics_;
+    std::map<std::string, const TableNode*> singles_;
+};
+
+}  // namespace candela

@@ -1,0 +1,183 @@
+module;
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+module candela.scene;
+
+import :models;
+import :tables;
+import :vocabulary;
+import candela.plugins;
+import candela.util;
+
+namespace candela {
+
+ModelChooser::ModelChooser(const SceneRequest& request, SceneTables& tables)
+    : request_(request), tables_(tables) {
+    shading_ = named("shading", request.shading);
+    reflection_ = named("reflection", request.reflection);
+    use_defaults_if_agreed();
+    read_shading_table();
+    if (const TableNode* const table = tables.single("reflection")) {
+        report_unknown_keys(
+            *table, names_in(schema_of("reflection").parameters),
+            {"[reflection]", {}, tables.whole(), "an object's material belongs in [object.material]"},
+            tables.diagnostics());
+    }
+    if (reflection_) tables.known(PluginKind::reflection, reflection_->name, reflection_->place);
+}
+
+/// The model named by a setting, or by the `model` of a table.
+std::optional<ModelChooser::Named> ModelChooser::named(const std::string& table_name,
+                                                       const std::optional<ModelSetting>& setting) {
+    if (setting) return Named{setting->name, {setting->origin, 0, 0, 0}};
+    const TableNode* const table = tables_.single(table_name);
+    if (table == nullptr) return std::nullopt;
+    const ParamSet values = read_parameters(*table, schema_of(table_name).parameters,
+                                            tables_.context_of(table_name), tables_.diagnostics());
+    if (!has(values, "model")) return std::nullopt;
+    return Named{text(values, "model"), table->find("model")->node.place};
+}
+
+/// The model named by the object itself, unless a setting overrides it. Whether the value is a string is
+/// checked with the object.
+std::optional<ModelChooser::Named> ModelChooser::named_by(const TableNode& object, const std::string& key,
+                                                          const std::optional<ModelSetting>& setting) const {
+    const TableNode::Entry* const entry = object.find(key);
+    if (entry == nullptr || setting) return std::nullopt;
+    const auto* const name = std::get_if<std::string>(&entry->node.value);
+    return name != nullptr ? std::optional(Named{*name, entry->node.place}) : std::nullopt;
+}
+
+/// Whether a table that names a model is missing although some object needs it.
+bool ModelChooser::is_missing(const std::string& table) const {
+    const TableNode::Entry* const objects = tables_.root().find("object");
+    if (tables_.root().find(table) != nullptr || objects == nullptr || objects->node.array() == nullptr)
+        return false;
+    return std::ranges::any_of(*objects->node.array(), [&](const Node& object) {
+        return object.table() != nullptr && object.table()->find(table) == nullptr;
+    });
+}
+
+void ModelChooser::use_defaults_if_agreed() {
+    const bool no_shading = !shading_ && is_missing("shading");
+    const bool no_reflection = !reflection_ && is_missing("reflection");
+    if (!no_shading && !no_reflection) return;
+    const std::string missing = no_shading && no_reflection ? "shading or reflection model"
+                                : no_shading                ? "shading model"
+                                                            : "reflection model";
+    std::vector<std::string> defaults;
+    if (no_shading) defaults.push_back(fmt::format("{} shading", k_default_shading));
+    if (no_reflection) defaults.push_back(fmt::format("{} reflection", k_default_reflection));
+    const std::string both = fmt::format("{}", fmt::join(defaults, " and "));
+    // Do not ask about a scene that is already wrong.
+    const bool agreed =
+        request_.use_defaults ||
+        (request_.ask && (tables_.diagnostics().has_errors() ||
+                          request_.ask(fmt::format("The scene names no {}. Use {}?", missing, both))));
+    if (!agreed) {
+        tables_.diagnostics().error(tables_.whole(), fmt::format("the scene names no {}", missing), "",
+                                    {Help::Topic::default_models, both});
+        return;
+    }
+    if (no_shading) shading_ = Named{k_default_shading, tables_.whole()};
+    if (no_reflection) reflection_ = Named{k_default_reflection, tables_.whole()};
+}
+
+/// [shading] also contains the parameters of its model.
+void ModelChooser::read_shading_table() {
+    if (!shading_) return;
+    const PluginFile* const plugin = tables_.known(PluginKind::shading, shading_->name, shading_->place);
+    const TableNode* const table = tables_.single("shading");
+    if (plugin == nullptr || table == nullptr || request_.shading) return;
+    TableContext context = tables_.context_of("shading");
+    context.help = {Help::Topic::plugin, plugin->manifest.id()};
+    context.lists_keys = false;
+    report_unknown_keys(*table, names_in(plugin->manifest.parameters, {"model"}), context,
+                        tables_.diagnostics());
+    shading_parameters_ = tables_.read_plugin(*table, *plugin, context);
+}
+
+Model ModelChooser::shading_for(const TableNode& object) {
+    if (const auto own = named_by(object, "shading", request_.shading)) {
+        const PluginFile* const plugin = tables_.known(PluginKind::shading, own->name, own->place);
+        return plugin != nullptr ? Model{own->name, ParamSet(plugin->schema)} : Model{};
+    }
+    // A missing model has been reported with [shading].
+    const PluginFile* const plugin =
+        shading_ ? tables_.registry().find(PluginKind::shading, shading_->name) : nullptr;
+    if (plugin == nullptr) return {};
+    return {shading_->name, shading_parameters_ ? *shading_parameters_ : ParamSet(plugin->schema)};
+}
+
+Model ModelChooser::reflection_for(const TableNode& object, const std::string& label,
+                                   const SourcePlace& place) {
+    static const TableNode k_empty;
+    const TableNode::Entry* const entry = object.find("material");
+    if (entry != nullptr && entry->node.table() == nullptr) {
+        tables_.diagnostics().error(
+            entry->node.place,
+            fmt::format("'material' is {}; expected the table [object.material]", description(entry->node)));
+        return {};
+    }
+    const auto own = named_by(object, "reflection", request_.reflection);
+    const auto& model = own ? own : reflection_;
+    if (!model) return {};
+    // A missing model has been reported with [reflection], if that names it.
+    const PluginFile* const plugin = own ? tables_.known(PluginKind::reflection, own->name, own->place)
+                                         : tables_.registry().find(PluginKind::reflection, model->name);
+    if (plugin == nullptr) return {};
+    const TableNode& material = entry != nullptr ? *entry->node.table() : k_empty;
+    const TableContext context{fmt::format("[object.material] of {}", label),
+                               {Help::Topic::plugin, plugin->manifest.id()},
+                               entry != nullptr ? entry->key_place : place,
+                               "",
+                               hints_for("material", tables_.registry())};
+    report_unknown_material_keys(material, *plugin, context);
+    return {model->name, tables_.read_plugin(material, *plugin, context)};
+}
+
+/// If a reflection model is set for all objects, a material written for another model is not an error: keys
+/// unknown to the model in use are ignored.
+void ModelChooser::report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,
+                                                const TableContext& context) {
+    const std::vector<std::string> known_keys = names_in(plugin.manifest.parameters);
+    TableNode unknown;
+    for (const TableNode::Entry& entry : material.entries) {
+        if (std::ranges::find(known_keys, entry.key) != known_keys.end()) continue;
+        const std::vector<std::string> others = models_with(entry.key);
+        if (others.empty()) {
+            unknown.entries.push_back(entry);
+        } else if (!request_.reflection) {
+            tables_.diagnostics().error(
+                entry.key_place,
+                fmt::format("{} has no parameter '{}', which {} {}", plugin.manifest.id(), entry.key,
+                            fmt::join(others, ", "), others.size() == 1 ? "has" : "have"),
+                "", context.help);
+        }
+    }
+    report_unknown_keys(unknown, known_keys, context, tables_.diagnostics());
+}
+
+std::vector<std::string> ModelChooser::models_with(const std::string& key) {
+    std::vector<std::string> models;
+    for (const PluginFile* plugin : tables_.registry().list()) {
+        if (plugin->manifest.kind == PluginKind::reflection &&
+            std::ranges::any_of(plugin->manifest.parameters,
+                                [&](const Parameter& p) { return p.name == key; })) {
+            models.push_back(plugin->manifest.id());
+        }
+    }
+    return models;
+}
+
+}  // namespace candela

@@ -1,0 +1,344 @@
+module;
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+module candela.scene;
+
+import :merge;
+import :models;
+import :reading;
+import :tables;
+import :vocabulary;
+import candela.api;
+import candela.plugins;
+import candela.util;
+
+namespace candela {
+
+namespace {
+
+class Reader {
+  public:
+    Reader(const SceneRequest& request, const MergedDocument& document, Registry& registry,
+           Diagnostics& diagnostics)
+        : tables_(document, registry, diagnostics),
+          registry_(registry),
+          request_(request),
+          diagnostics_(diagnostics),
+          files_(document.files) {}
+
+    SceneDraft read() {
+        read_version();
+        std::vector<std::string> keys = names_in(top_schema().parameters);
+        for (const TableSchema& schema : scene_schema()) keys.push_back(schema.name);
+        report_unknown_keys(
+            tables_.root(), keys,
+            {.where = "the scene", .help = {}, .place = tables_.whole(), .hint = hints_for("", registry_)},
+            diagnostics_);
+        draft_.files = files_;
+        read_room();
+        draft_.has_room = tables_.has_valid("room", {"height", "width", "depth"});
+        read_observer();
+        read_image();
+        read_constraints();
+        each("light", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
+            read_light(table, place, i);
+        });
+        ModelChooser models(request_, tables_);
+        each("object", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
+            read_object(table, place, i, models);
+        });
+        warn_if_empty();
+        draft_.is_complete = !diagnostics_.has_errors();
+        return std::move(draft_);
+    }
+
+  private:
+    static const SourcePlace& place_of(const TableNode& table, std::string_view key,
+                                       const SourcePlace& otherwise) {
+        const TableNode::Entry* const entry = table.find(key);
+        // NOLINTNEXTLINE(bugprone-return-const-ref-from-parameter): callers copy it at once
+        return entry != nullptr ? entry->node.place : otherwise;
+    }
+
+    void read_version() {
+        const TableNode::Entry* const version = tables_.root().find("version");
+        if (version == nullptr) {
+            diagnostics_.error(tables_.whole(), "the scene has no version", "write: version = 1");
+            return;
+        }
+        const auto* const number = std::get_if<std::int64_t>(&version->node.value);
+        if (number == nullptr) {
+            diagnostics_.error(version->node.place, fmt::format("'version' is {}; expected the integer 1",
+                                                                description(version->node)));
+        } else if (*number != 1) {
+            diagnostics_.error(
+                version->node.place,
+                fmt::format("this Candela does not support version {} of the scene file", *number),
+                "it reads version 1");
+        }
+    }
+
+    void read_room() {
+        const ParamSet values = tables_.read_plain("room");
+        scene_.room = {real(values, "height"), real(values, "width"), real(values, "depth")};
+    }
+
+    void read_observer() {
+        draft_.has_observer = false;
+        if (tables_.root().find("observer") == nullptr) {
+            diagnostics_.error(tables_.whole(), "the scene has no [observer]",
+                               "write: [observer] with position and look_at");
+            return;
+        }
+        const ParamSet values = tables_.read_plain("observer");
+        Observer& observer = scene_.observer;
+        // A unit vector is preserved exactly, so that a written scene reads back as the same scene.
+        const Vec3 up = vector(values, "up");
+        observer.up = std::abs(length(up) - 1) < 1e-6f ? up : normalized(up);
+        observer.projection =
+            text(values, "projection") == "orthographic" ? Projection::orthographic : Projection::perspective;
+        observer.fov = real(values, "fov");
+        observer.height = real(values, "height");
+        observer.frame_aspect = real(values, "frame_aspect");
+        const TableNode* const table = tables_.single("observer");
+        if (table == nullptr) return;
+        if (tables_.has_valid("observer", {"position"})) {
+            draft_.has_observer = true;
+            observer.position = vector(values, "position");
+            observer.position_place = table->find("position")->node.place;
+        }
+        if (tables_.has_valid("observer", {"look_at"})) observer.look_at = vector(values, "look_at");
+        if (tables_.has_valid("observer", {"position", "look_at", "up"})) check_view(*table);
+        if (tables_.has_valid("observer", {"projection"})) warn_of_unused(*table);
+    }
+
+    /// Whether the observer's view is well defined.
+    void check_view(const TableNode& table) {
+        const Observer& observer = scene_.observer;
+        const SourcePlace& look_at = table.find("look_at")->node.place;
+        const Vec3 view = normalized(observer.look_at - observer.position);
+        if (view == Vec3{}) {
+            diagnostics_.error(look_at, "the observer is at the point it looks at",
+                               "position and look_at must differ");
+        } else if (length(cross(view, observer.up)) < 1e-6f) {
+            const TableNode::Entry* const up = table.find("up");
+            diagnostics_.error(up != nullptr ? up->node.place : look_at,
+                               "'up' is parallel to the viewing direction",
+                               "choose another 'up', such as [0, 0, -1] when looking straight down");
+        }
+    }
+
+    void warn_of_unused(const TableNode& table) {
+        const bool perspective = scene_.observer.projection == Projection::perspective;
+        if (const TableNode::Entry* const unused = table.find(perspective ? "height" : "fov")) {
+            diagnostics_.warning(unused->key_place,
+                                 fmt::format("'{}' has no effect in a{} view", unused->key,
+                                             perspective ? " perspective" : "n orthographic"));
+        }
+    }
+
+    void read_image() {
+        const ParamSet values = tables_.read_plain("image");
+        scene_.image = {.width = integer(values, "width"),
+                        .height = integer(values, "height"),
+                        .samples = integer(values, "samples"),
+                        .background = vector(values, "background"),
+                        .environment = text(values, "environment"),
+                        .color_management = text(values, "color_management") == "none" ? ColorEncoding::none
+                                                                                       : ColorEncoding::srgb};
+        const TableNode* const table = tables_.single("image");
+        draft_.picture_place = tables_.context_of("image").place;
+        for (const char* const key : {"width", "height"}) {
+            if (table != nullptr && table->find(key) != nullptr)
+                draft_.picture_place = table->find(key)->node.place;
+        }
+        const TableNode::Entry* const environment = table != nullptr ? table->find("environment") : nullptr;
+        if (environment == nullptr) return;
+        scene_.image.environment_place = environment->node.place;
+        if (const TableNode::Entry* const unused = table->find("background"))
+            diagnostics_.warning(unused->key_place, "'background' has no effect with an environment");
+    }
+
+    void read_constraints() {
+        const ParamSet values = tables_.read_plain("constraints");
+        const std::string& overlap = text(values, "overlap");
+        if (overlap == "allow") scene_.constraints.overlap.reset();
+        if (overlap == "warn") scene_.constraints.overlap = Severity::warning;
+    }
+
+    template <class Visit>
+    void each(const std::string& name, Visit visit) {
+        const TableNode::Entry* const entry = tables_.root().find(name);
+        if (entry == nullptr) return;
+        const ArrayNode* const all = entry->node.array();
+        if (all == nullptr ||
+            !std::ranges::all_of(*all, [](const Node& node) { return node.table() != nullptr; })) {
+            diagnostics_.error(entry->key_place,
+                               fmt::format("'{}' is {}; expected tables, each headed {}", name,
+                                           description(entry->node), schema_of(name).title));
+            return;
+        }
+        for (std::size_t i = 0; i < all->size(); ++i) visit(*(*all)[i].table(), (*all)[i].place, i);
+    }
+
+    /// The name of a light or object for messages; reports a name that is already taken.
+    std::string label_of(const std::string& kind, const TableNode& table, std::size_t index) {
+        const TableNode::Entry* const entry = table.find("name");
+        const auto* const name = entry != nullptr ? std::get_if<std::string>(&entry->node.value) : nullptr;
+        if (name == nullptr || name->empty()) return fmt::format("number {}", index);
+        const auto [before, is_new] = names_.try_emplace(kind + ' ' + *name, entry->node.place);
+        if (!is_new) {
+            const SourcePlace& first = before->second;
+            diagnostics_.error(entry->node.place, fmt::format("another {} is called '{}', at {}:{}:{}", kind,
+                                                              *name, first.file, first.line, first.column));
+        }
+        return fmt::format("'{}'", *name);
+    }
+
+    /// Like label_of(), for messages: as much of the label as fits.
+    static std::string short_label(const std::string& label) {
+        const auto name = name_of_label(label);
+        return name ? fmt::format("'{}'", shortened(*name)) : label;
+    }
+
+    /// Reads a plugin named by `type` with its parameters, which are next to the table's own keys.
+    std::optional<Model> read_typed(const std::string& table_name, PluginKind kind, const TableNode& table,
+                                    const ParamSet& own, TableContext context,
+                                    std::vector<std::string> more_keys) {
+        if (!has(own, "type")) return std::nullopt;
+        const PluginFile* const plugin =
+            tables_.known(kind, text(own, "type"), table.find("type")->node.place);
+        if (plugin == nullptr) return std::nullopt;
+        context.help = {Help::Topic::plugin, plugin->manifest.id()};
+        context.hint = hints_for(table_name, registry_);
+        const std::vector<std::string> keys = names_in(
+            plugin->manifest.parameters, names_in(schema_of(table_name).parameters, std::move(more_keys)));
+        report_unknown_keys(table, keys, context, diagnostics_);
+        return Model{plugin->manifest.name, tables_.read_plugin(table, *plugin, context)};
+    }
+
+    void read_light(const TableNode& table, const SourcePlace& place, std::size_t index) {
+        const std::string label = label_of("light", table, index);
+        const TableContext context{
+            fmt::format("[[light]] {}", short_label(label)), {Help::Topic::plugins_of_kind, "light"}, place};
+        const ParamSet own = read_parameters(table, schema_of("light").parameters, context, diagnostics_);
+        std::optional<Model> model = read_typed("light", PluginKind::light, table, own, context, {});
+        // Its position can be checked whatever else is wrong with it.
+        const Parameter* const position =
+            model ? parameter_named(model->parameters.schema(), "position") : nullptr;
+        if (model && (position == nullptr || is_valid(table, *position)))
+            scene_.lights.push_back({label, std::move(*model), place, place_of(table, "position", place)});
+    }
+
+    void read_object(const TableNode& table, const SourcePlace& place, std::size_t index,
+                     ModelChooser& models) {
+        Object object;
+        object.label = label_of("object", table, index);
+        object.place = place;
+        const std::size_t errors = diagnostics_.error_count();
+        const TableContext context{fmt::format("[[object]] {}", short_label(object.label)),
+                                   {Help::Topic::plugins_of_kind, "shape"},
+                                   place};
+        object.position_place = place_of(table, "position", place);
+        const ParamSet own = read_parameters(table, schema_of("object").parameters, context, diagnostics_);
+        object.transform = {vector(own, "position"), vector(own, "rotation"), vector(own, "scale")};
+        object.color = vector(own, "color");
+        object.color_texture = text(own, "color_texture");
+        object.color_texture_wrap =
+            text(own, "color_texture_wrap") == "clamp" ? TextureWrap::clamp : TextureWrap::repeat;
+        object.texture_place = place_of(table, "color_texture", place);
+        object.encloses = boolean(own, "encloses");
+        auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"});
+        object.shading = models.shading_for(table);
+        object.reflection = models.reflection_for(table, short_label(object.label), place);
+        if (!shape) return;
+        // Its triangles can be checked whatever else is wrong with it.
+        if (diagnostics_.error_count() != errors && !has_known_triangles(table, *shape)) return;
+        object.shape = std::move(*shape);
+        scene_.objects.push_back(std::move(object));
+    }
+
+    /// Whether everything that determines an object's triangles is valid.
+    bool has_known_triangles(const TableNode& table, const Model& shape) {
+        const auto is_known = [&](const Parameter& p) { return is_valid(table, p); };
+        const auto& schema = schema_of("object").parameters;
+        const auto& relations = tables_.registry().require(PluginKind::shape, shape.name).manifest.relations;
+        return std::ranges::all_of(
+                   std::array{"position", "rotation", "scale", "encloses"},
+                   [&](std::string_view name) { return is_known(*parameter_named(schema, name)); }) &&
+               std::ranges::all_of(shape.parameters.schema(), is_known) &&
+               std::ranges::none_of(relations, [&](const Relation& relation) {
+                   return !relation.only_warns && validation_error(relation, shape.parameters);
+               });
+    }
+
+    void warn_if_empty() {
+        if (diagnostics_.has_errors()) return;
+        if (scene_.objects.empty()) {
+            diagnostics_.warning(tables_.whole(),
+                                 "the scene has no objects: the picture shows only the background");
+        } else if (scene_.lights.empty()) {
+            diagnostics_.warning(tables_.whole(), "the scene has no lights: every object is black");
+        }
+    }
+
+    SceneTables tables_;
+    Registry& registry_;
+    const SceneRequest& request_;
+    Diagnostics& diagnostics_;
+    const std::vector<std::filesystem::path>& files_;
+    SceneDraft draft_;
+    Scene& scene_ = draft_.scene;
+    std::map<std::string, SourcePlace> names_;
+};
+
+void add_files(const Model& model, std::vector<std::filesystem::path>& files) {
+    for (std::size_t i = 0; i < model.parameters.schema().size(); ++i) {
+        const auto& value = model.parameters.get(i);
+        if (model.parameters.schema()[i].type != ParamType::file || !value) continue;
+        if (const auto& file = std::get<std::string>(*value); !file.empty()) files.emplace_back(file);
+    }
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> input_files(const SceneDraft& draft) {
+    std::vector<std::filesystem::path> files = draft.files;
+    const Scene& scene = draft.scene;
+    if (!scene.image.environment.empty()) files.emplace_back(scene.image.environment);
+    for (const LightSource& light : scene.lights) add_files(light.model, files);
+    for (const Object& object : scene.objects) {
+        if (!object.color_texture.empty()) files.emplace_back(object.color_texture);
+        for (const Model* const model : {&object.shape, &object.shading, &object.reflection})
+            add_files(*model, files);
+    }
+    return files;
+}
+
+SceneDraft read_draft(const SceneRequest& request, const MergedDocument& document, Registry& registry,
+                      Diagnostics& diagnostics) {
+    return Reader(request, document, registry, diagnostics).read();
+}
+
+std::optional<Scene> read_scene(const SceneRequest& request, Registry& registry, Diagnostics& diagnostics) {
+    auto draft = draft_scene(request, registry, diagnostics);
+    if (!draft || !draft->is_complete) return std::nullopt;
+    return std::move(draft->scene);
+}
+
+}  // namespace candela

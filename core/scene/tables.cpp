@@ -1,0 +1,132 @@
+module;
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <initializer_list>
+#include <iterator>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+module candela.scene;
+
+import :tables;
+import :vocabulary;
+import candela.api;
+import candela.plugins;
+import candela.util;
+
+namespace candela {
+
+const TableSchema& schema_of(std::string_view table) {
+    return *std::ranges::find_if(scene_schema(), [&](const TableSchema& s) { return s.name == table; });
+}
+
+std::vector<std::string> names_in(std::span<const Parameter> schema, std::vector<std::string> keys) {
+    for (const Parameter& p : schema) keys.push_back(p.name);
+    return keys;
+}
+
+const Parameter* parameter_named(std::span<const Parameter> schema, std::string_view name) {
+    const auto found = std::ranges::find(schema, name, &Parameter::name);
+    return found != schema.end() ? &*found : nullptr;
+}
+
+float real(const ParamSet& set, std::string_view name) {
+    return static_cast<float>(std::get<double>(set.get(name)));
+}
+int integer(const ParamSet& set, std::string_view name) {
+    return static_cast<int>(std::get<std::int64_t>(set.get(name)));
+}
+bool boolean(const ParamSet& set, std::string_view name) { return std::get<bool>(set.get(name)); }
+Vec3 vector(const ParamSet& set, std::string_view name) { return std::get<Vec3>(set.get(name)); }
+const std::string& text(const ParamSet& set, std::string_view name) {
+    return std::get<std::string>(set.get(name));
+}
+bool has(const ParamSet& set, std::string_view name) { return set.get(set.index_of(name)).has_value(); }
+
+SceneTables::SceneTables(const MergedDocument& document, Registry& registry, Diagnostics& diagnostics)
+    : root_(document.root), whole_(document.place), registry_(registry), diagnostics_(diagnostics) {}
+
+const TableNode* SceneTables::single(const std::string& name) {
+    const auto [known, is_new] = singles_.try_emplace(name, nullptr);
+    const TableNode::Entry* const entry = root_.find(name);
+    if (!is_new || entry == nullptr) return known->second;
+    known->second = entry->node.table();
+    if (known->second == nullptr) {
+        const std::string what =
+            entry->node.array() != nullptr ? "a list: there may be only one" : description(entry->node);
+        diagnostics_.error(entry->key_place, fmt::format("'{}' is {}; expected the table {}", name, what,
+                                                         schema_of(name).title));
+    }
+    return known->second;
+}
+
+TableContext SceneTables::context_of(const std::string& name) const {
+    const TableNode::Entry* const entry = root_.find(name);
+    return {.where = schema_of(name).title,
+            .help = {},
+            .place = entry != nullptr ? entry->key_place : whole_,
+            .hint = hints_for(name, registry_),
+            .lists_keys = true};
+}
+
+ParamSet SceneTables::read_plain(const std::string& name) {
+    static const TableNode k_empty;
+    const TableNode* const table = single(name);
+    const std::vector<Parameter>& parameters = schema_of(name).parameters;
+    // A value that is not a table has been reported; don't report its missing keys as well.
+    if (table == nullptr && root_.find(name) != nullptr) return ParamSet(parameters);
+    const TableContext context = context_of(name);
+    if (table != nullptr) report_unknown_keys(*table, names_in(parameters), context, diagnostics_);
+    return read_parameters(table != nullptr ? *table : k_empty, parameters, context, diagnostics_);
+}
+
+bool SceneTables::has_valid(const std::string& name, std::initializer_list<std::string_view> keys) {
+    static const TableNode k_empty;
+    const TableNode* const table = single(name);
+    if (table == nullptr && root_.find(name) != nullptr) return false;
+    return std::ranges::all_of(keys, [&](std::string_view key) {
+        return is_valid(table != nullptr ? *table : k_empty,
+                        *parameter_named(schema_of(name).parameters, key));
+    });
+}
+
+const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, const SourcePlace& place) {
+    if (const PluginFile* const plugin = registry_.find(kind, name)) return plugin;
+    try {
+        registry_.require(kind, name);
+    } catch (const Error& problem) {
+        diagnostics_.error(place, problem.what(), "", problem.help());
+    }
+    return nullptr;
+}
+
+ParamSet SceneTables::read_plugin(const TableNode& table, const PluginFile& plugin,
+                                  const TableContext& context) {
+    const std::size_t before = diagnostics_.error_count();
+    ParamSet values = read_parameters(table, plugin.schema, context, diagnostics_);
+    if (diagnostics_.error_count() == before) {
+        check_relations(table, values, plugin.manifest.relations, context, diagnostics_);
+        return values;
+    }
+    // A rejected value leaves its default, which need not be consistent with the others.
+    std::vector<Relation> between_valid;
+    std::ranges::copy_if(
+        plugin.manifest.relations, std::back_inserter(between_valid), [&](const Relation& r) {
+            return std::ranges::all_of(std::array{&r.left, &r.right}, [&](const std::string* name) {
+                const Parameter* const p = parameter_named(*plugin.schema, *name);
+                return p != nullptr && is_valid(table, *p);
+            });
+        });
+    check_relations(table, values, between_valid, context, diagnostics_);
+    return values;
+}
+
+}  // namespace candela

@@ -1,0 +1,49 @@
+module;
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+module candela.shading:surroundings;
+
+import :environment;
+import :surface;
+import candela.api;
+import candela.geometry;
+import candela.raster;
+import candela.util;
+
+namespace candela {
+
+/// The normals from an object's shading model, on the side of each triangle that is its front.
+void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal);
+
+/// The world around one object, as its models see it.
+class ObjectSurroundings final : public Surroundings {
+  public:
+    explicit ObjectSurroundings(const Environment& environment) : environment_(environment) {}
+
+    /// Sets the object for the following calls.
+    void set_object(const SurfaceModels& surface, const Interior& interior) {
+        surface_ = &surface;
+        interior_ = interior;
+    }
+
+    void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) override;
+    float max_intensity() const noexcept override { return environment_.max_intensity(); }
+    void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+               const ExitBatch& exit) override;
+
+  private:
+    void leave_batch(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+                     const ExitBatch& exit);
+
+    const Environment& environment_;
+    const SurfaceModels* surface_ = nullptr;
+    Interior interior_;
+    SurfacePoints points_;  // where rays left
+    Vec3Arrays barycentric_, normal_;
+    std::vector<std::uint32_t> triangles_;
+};
+
+}  // namespace candela

@@ -1,0 +1,9 @@
+// Light at surface points: textures, environment, normals, lights, reflection.
+export module candela.shading;
+
+export import :environment;
+export import :surface;
+export import :surface_shader;
+export import :term;
+export import :texture;
+export import :trace;

@@ -1,0 +1,374 @@
+module;
+
+#include "candela/kernel/batch.h"
+#include "candela/kernel/kernel.h"
+#include "candela/kernel/simd_dispatch.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+module candela.shading;
+
+import :guarded;
+import :surroundings;
+import candela.api;
+import candela.plugins;
+import candela.raster;
+import candela.util;
+
+namespace candela {
+
+namespace {
+
+using kernel::vec3;
+
+/// V: towards the eye, or against the view direction in an orthographic picture.
+struct ToObserverLoop {
+    CANDELA_BATCH_LOOP static void run(Camera camera, ConstVec3Span position, std::size_t count,
+                                       Vec3Span to_observer) {
+        const bool perspective = camera.projection == Projection::perspective;
+        const Vec3 against = -camera.forward;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec3 d = perspective ? camera.eye - position[i] : against;
+            kernel::store(to_observer, i, kernel::normalize(vec3(d.x, d.y, d.z)));
+        }
+    }
+};
+
+struct FlipLoop {
+    CANDELA_BATCH_LOOP static void run(const float* facing, std::size_t count, Vec3Span v) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            kernel::store(v, i, kernel::load(v, i) * facing[i]);
+        }
+    }
+};
+
+/// dp/du without its part along N (Gram-Schmidt).
+struct TangentLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span dpdu, ConstVec3Span normal, std::size_t count,
+                                       Vec3Span tangent) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const vec3 n = kernel::load(normal, i);
+            const vec3 u = kernel::load(dpdu, i);
+            kernel::store(tangent, i, kernel::normalize(u - n * kernel::dot(n, u)));
+        }
+    }
+};
+
+/// Adds up arrays, and finds the largest magnitude among the sums; a non-finite number counts as larger than
+/// all finite ones. Without their sign, the bits of floats have the same order as integers, whose maximum is
+/// vectorised.
+template <std::size_t terms>
+struct SumLoop {
+    CANDELA_BATCH_LOOP static void run(std::array<ConstVec3Span, terms> of, std::size_t count, Vec3Span sum,
+                                       std::int32_t* bits) {
+        constexpr std::int32_t k_magnitude = 0x7fff'ffff;
+        std::int32_t largest = 0;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            vec3 s = kernel::load(of[0], i);
+            for (std::size_t k = 1; k < terms; ++k) s = s + kernel::load(of[k], i);
+            const std::int32_t x = std::bit_cast<std::int32_t>(s.x) & k_magnitude;
+            const std::int32_t y = std::bit_cast<std::int32_t>(s.y) & k_magnitude;
+            const std::int32_t z = std::bit_cast<std::int32_t>(s.z) & k_magnitude;
+            const std::int32_t xy = x > y ? x : y;
+            const std::int32_t xyz = xy > z ? xy : z;
+            largest = largest > xyz ? largest : xyz;
+            kernel::store(sum, i, s);
+        }
+        *bits = largest;
+    }
+};
+
+template <std::size_t terms>
+float add(const std::array<ConstVec3Span, terms>& of, std::size_t count, const Vec3Span& sum) {
+    std::int32_t bits = 0;
+    std::int32_t* const result = &bits;
+    multiversion<SumLoop<terms>>(of, count, sum, result);
+    return std::bit_cast<float>(bits);
+}
+
+bool are_finite(ConstVec3Span v, std::size_t count) {
+    bool finite = true;
+    for (const float* const channel : {v.x, v.y, v.z}) {
+        for (std::size_t i = 0; i < count; ++i) finite = finite && std::isfinite(channel[i]);
+    }
+    return finite;
+}
+
+/// The size of the canary after the batch arrays' last element, in floats.
+constexpr std::size_t k_guard_size = 16;
+
+void clear(const Vec3Span& span, std::size_t count) {
+    for (float* const channel : {span.x, span.y, span.z}) std::fill_n(channel, count, 0.0f);
+}
+
+/// The number of points of a batch that are lit: whole vectors, unless rays are followed from each of them.
+std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
+    return surface.reflection->shows_surroundings() ? points.count : points.filled;
+}
+
+}  // namespace
+
+PointNeeds SurfaceModels::needs() const {
+    const ShadingNeeds needs = shading->needs();
+    return {.face_normal = needs.face_normal,
+            .vertex_normal = needs.vertex_normal,
+            .barycentric = needs.barycentric,
+            .uv = needs.uv || reflection->needs_uv() || color_texture != nullptr,
+            .footprint = color_texture != nullptr,
+            .derivatives = needs.derivatives || reflection->needs_tangent(),
+            .triangle = needs.triangle};
+}
+
+void apply_texture(const SurfaceModels& surface, SurfacePoints& points) {
+    if (surface.color_texture == nullptr) return;
+    const Vec3Span color = points.color.span();
+    if (!points.has_color) {
+        std::fill_n(color.x, points.filled, surface.color.r);
+        std::fill_n(color.y, points.filled, surface.color.g);
+        std::fill_n(color.z, points.filled, surface.color.b);
+        points.has_color = true;
+    }
+    surface.color_texture->multiply(surface.color_texture_wrap, points.filled,
+                                    {.uv = {points.u.data(), points.v.data()},
+                                     .per_x = {points.dudx.data(), points.dvdx.data()},
+                                     .per_y = {points.dudy.data(), points.dvdy.data()}},
+                                    color);
+}
+
+void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal) {
+    const ShadingNeeds needs = surface.shading->needs();
+    TriangleBatch triangle;
+    const bool has_triangle = needs.triangle && surface.shading->shading_rate() != ShadingRate::vertex;
+    for (std::size_t k = 0; has_triangle && k < 3; ++k) {
+        triangle.position[k] = points.corner_position[k].span();
+        triangle.normal[k] = points.corner_normal[k].span();
+    }
+    const ShadingPointBatch batch{
+        .count = points.filled,
+        .face_normal = needs.face_normal ? points.face_normal.span() : ConstVec3Span{},
+        .vertex_normal = needs.vertex_normal ? points.vertex_normal.span() : ConstVec3Span{},
+        .barycentric = needs.barycentric ? points.barycentric.span() : ConstVec3Span{},
+        .uv = needs.uv ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
+        .dpdu = needs.derivatives ? points.dpdu.span() : ConstVec3Span{},
+        .dpdv = needs.derivatives ? points.dpdv.span() : ConstVec3Span{},
+        .triangle = has_triangle ? &triangle : nullptr};
+    surface.shading->normals(batch, normal);
+}
+
+SurfaceShader::SurfaceShader() {
+    for (Vec3Arrays* const arrays : {&to_observer_, &tangent_}) arrays->resize(k_batch_size);
+    for (Vec3Arrays* const arrays : written_by_plugins()) arrays->resize(k_batch_size + k_guard_size);
+    mark_ends();
+}
+
+SurfaceShader::~SurfaceShader() = default;
+
+void SurfaceShader::begin(const LitScene& scene) {
+    scene_ = scene;
+    surroundings_.reset();
+    lights_.clear();
+    other_lights_.clear();
+    punctual_lights_.clear();
+    lighting_ = {};
+    for (const LitSource& source : scene.lights) {
+        lights_.push_back(&source);
+        if (!describe(source)) other_lights_.push_back(&source);
+    }
+    lighting_.lights = punctual_lights_;
+    const bool is_perspective = scene.camera.projection == Projection::perspective;
+    lighting_.observer = is_perspective ? scene.camera.eye : -scene.camera.forward;
+    lighting_.w = is_perspective ? 1.0f : 0.0f;
+}
+
+bool SurfaceShader::describe(const LitSource& source) {
+    const std::size_t before = punctual_lights_.size();
+    Rgb ambient;
+    bool is_data = true;
+    guarded(PluginKind::light, source.plugin, [&] {
+        for (int sample = 0; is_data && sample < source.light->sample_count(); ++sample)
+            is_data = source.light->describe(sample, punctual_lights_.emplace_back());
+        if (is_data && source.light->has_ambient()) is_data = source.light->describe_ambient(ambient);
+    });
+    if (is_data) {
+        lighting_.ambient = lighting_.ambient + ambient;
+    } else {
+        punctual_lights_.resize(before);
+    }
+    return is_data;
+}
+
+std::array<Vec3Arrays*, 8> SurfaceShader::written_by_plugins() {
+    return {&normal_,  &to_light_, &light_diffuse_, &light_specular_,
+            &ambient_, &diffuse_,  &specular_,      &reflected_};
+}
+
+void SurfaceShader::mark_ends() {
+    for (Vec3Arrays* const arrays : written_by_plugins()) {
+        for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
+            fill_with_guard(std::span(*array).subspan(k_batch_size));
+    }
+}
+
+bool SurfaceShader::are_ends_intact(std::span<Vec3Arrays* const> written) {
+    bool intact = true;
+    for (const Vec3Arrays* const arrays : written) {
+        for (const AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
+            intact &= is_guard_intact(std::span(*array).subspan<k_batch_size, k_guard_size>());
+    }
+    return intact;
+}
+
+void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
+                                  std::initializer_list<const Vec3Arrays*> results) {
+    const auto fail = [&](const char* what) {
+        throw Error(ErrorCategory::failure, fmt::format("plugin {}/{} {}", name_of(kind), plugin, what),
+                    {Help::Topic::plugin_conformance});
+    };
+    if (!are_ends_intact(written_by_plugins())) {
+        mark_ends();
+        fail("wrote past the end of its batch");
+    }
+    for (const Vec3Arrays* arrays : results) {
+        if (!are_finite(arrays->span(), count)) fail("returned a non-finite value");
+    }
+}
+
+void SurfaceShader::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
+    guarded(PluginKind::shading, surface.shading_plugin,
+            [&] { shading_normals(surface, points, normal_.span()); });
+    if (points.any_from_behind) multiversion<FlipLoop>(points.facing.data(), points.filled, normal_.span());
+}
+
+float SurfaceShader::shade(const SurfaceModels& surface, const Interior& interior,
+                           const SurfacePoints& points, const Vec3Span& intensity) {
+    const std::size_t count = lit_of(surface, points);
+    find_normals(surface, points);
+    const ConstVec3Span ambient = std::as_const(ambient_).span(), diffuse = std::as_const(diffuse_).span(),
+                        specular = std::as_const(specular_).span(),
+                        reflected = std::as_const(reflected_).span();
+    float largest = 0;
+    Vec3Arrays* const in_one_go[] = {&normal_, &reflected_};
+    const std::array all = written_by_plugins();
+    std::span<Vec3Arrays* const> written = all;
+    if (!reflect_punctual(surface, points)) {
+        add_up(surface, interior, points, lights_, Scrutiny::none);
+        largest = add<3>({ambient, diffuse, specular}, count, intensity);
+    } else if (other_lights_.empty()) {
+        largest = add<1>({reflected}, count, intensity);
+        written = in_one_go;
+    } else {
+        add_up(surface, interior, points, other_lights_, Scrutiny::none);
+        largest = add<4>({reflected, ambient, diffuse, specular}, count, intensity);
+    }
+    if (!std::isfinite(largest) || !are_ends_intact(written)) scrutinize(surface, interior, points);
+    return largest;
+}
+
+void SurfaceShader::scrutinize(const SurfaceModels& surface, const Interior& interior,
+                               const SurfacePoints& points) {
+    mark_ends();
+    find_normals(surface, points);
+    const std::size_t count = lit_of(surface, points);
+    require_sound(PluginKind::shading, surface.shading_plugin, count, {&normal_});
+    add_up(surface, interior, points, lights_, Scrutiny::each_step);
+    if (reflect_punctual(surface, points))
+        require_sound(PluginKind::reflection, surface.reflection_plugin, count, {&reflected_});
+}
+
+bool SurfaceShader::reflect_punctual(const SurfaceModels& surface, const SurfacePoints& points) {
+    if (other_lights_.size() == lights_.size() || surface.reflection->shows_surroundings()) return false;
+    const std::size_t count = lit_of(surface, points);
+    find_tangents(surface, points, count);
+    SurfaceBatch batch = lit_surface(surface, points, count);
+    batch.to_observer = {};
+    bool is_done = false;
+    guarded(PluginKind::reflection, surface.reflection_plugin,
+            [&] { is_done = surface.reflection->reflect_punctual(batch, lighting_, reflected_.span()); });
+    return is_done;
+}
+
+void SurfaceShader::find_tangents(const SurfaceModels& surface, const SurfacePoints& points,
+                                  std::size_t count) {
+    if (surface.reflection->needs_tangent())
+        multiversion<TangentLoop>(points.dpdu.span(), std::as_const(normal_).span(), count, tangent_.span());
+}
+
+SurfaceBatch SurfaceShader::lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
+                                        std::size_t count) const {
+    const ReflectionModel& model = *surface.reflection;
+    return {.count = count,
+            .normal = normal_.span(),
+            .to_observer = to_observer_.span(),
+            .tangent = model.needs_tangent() ? tangent_.span() : ConstVec3Span{},
+            .color = surface.color,
+            .position = points.position.span(),
+            .uv = model.needs_uv() ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
+            .point_color = points.has_color ? points.color.span() : ConstVec3Span{}};
+}
+
+void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interior,
+                           const SurfacePoints& points, const Lights& lights, Scrutiny scrutiny) {
+    const std::size_t count = lit_of(surface, points);
+    const auto look_at = [&](PluginKind kind, const std::string& plugin,
+                             std::initializer_list<const Vec3Arrays*> results) {
+        if (scrutiny == Scrutiny::each_step) require_sound(kind, plugin, count, results);
+    };
+    multiversion<ToObserverLoop>(scene_.camera, points.position.span(), count, to_observer_.span());
+    find_tangents(surface, points, count);
+    const ReceiverBatch receivers{
+        .count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()};
+    const SurfaceBatch batch = lit_surface(surface, points, count);
+    const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
+    for (const Vec3Span& sum : {reflected.ambient, reflected.diffuse, reflected.specular}) clear(sum, count);
+
+    for (const LitSource* const light : lights) {
+        const LitSource& source = *light;
+        for (int sample = 0; sample < source.light->sample_count(); ++sample) {
+            guarded(PluginKind::light, source.plugin, [&] {
+                source.light->illuminate(sample, receivers,
+                                         {to_light_.span(), light_diffuse_.span(), light_specular_.span()});
+            });
+            look_at(PluginKind::light, source.plugin, {&to_light_, &light_diffuse_, &light_specular_});
+            guarded(PluginKind::reflection, surface.reflection_plugin, [&] {
+                surface.reflection->reflect(
+                    batch, {to_light_.span(), light_diffuse_.span(), light_specular_.span()}, reflected);
+            });
+            look_at(PluginKind::reflection, surface.reflection_plugin, {&diffuse_, &specular_});
+        }
+        if (source.light->has_ambient()) {
+            guarded(PluginKind::light, source.plugin,
+                    [&] { source.light->illuminate_ambient(receivers, light_diffuse_.span()); });
+            look_at(PluginKind::light, source.plugin, {&light_diffuse_});
+            guarded(PluginKind::reflection, surface.reflection_plugin,
+                    [&] { surface.reflection->reflect_ambient(batch, light_diffuse_.span(), reflected); });
+            look_at(PluginKind::reflection, surface.reflection_plugin, {&ambient_});
+        }
+    }
+    if (surface.reflection->shows_surroundings() && scene_.environment != nullptr) {
+        if (surroundings_ == nullptr)
+            surroundings_ = std::make_unique<ObjectSurroundings>(*scene_.environment);
+        surroundings_->set_object(surface, interior);
+        guarded(PluginKind::reflection, surface.reflection_plugin,
+                [&] { surface.reflection->show_surroundings(batch, *surroundings_, reflected); });
+        look_at(PluginKind::reflection, surface.reflection_plugin, {&specular_});
+    }
+}
+
+}  // namespace candela

@@ -1,0 +1,95 @@
+// Shading of surface points: normals from the shading plugin, light from the light plugins, reflected light
+// from the reflection plugin.
+module;
+
+#include "candela/plugin/export.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+export module candela.shading:surface_shader;
+
+export import :surface;
+export import :term;
+export import :trace;
+import candela.api;
+import candela.raster;
+import candela.util;
+
+namespace candela {
+class ObjectSurroundings;
+}
+
+export namespace candela {
+
+/// Multiplies the points' colours by the surface's texture, if it has one. The points must have been gathered
+/// with what the surface needs.
+CANDELA_EXPORT void apply_texture(const SurfaceModels& surface, SurfacePoints& points);
+
+/// Evaluates light, batch by batch. Owns the batch's arrays: use one per thread.
+class CANDELA_EXPORT SurfaceShader {
+  public:
+    SurfaceShader();
+    ~SurfaceShader();
+
+    /// Sets the scene for the following calls.
+    void begin(const LitScene& scene);
+
+    /// Writes the intensity that `points` send to the observer, I_a + the sum of I_d + I_s over the lights
+    /// (CA DD6), into arrays with room for `points.filled`. Returns the largest intensity. Throws Error,
+    /// naming the plugin, if one throws, yields a non-finite number, or writes past the end of its batch.
+    float shade(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+                const Vec3Span& intensity);
+
+    /// Shades the single point of `points` and records the steps: `intensity` and the three sums are those of
+    /// shade(). Throws Error like shade().
+    PointTrace trace(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
+
+    /// Writes a non-geometric term of the intensity, or one of its inputs, instead of the intensity. Slower
+    /// than shade(), which it calls. Throws Error like shade().
+    void find_term(Term term, const SurfaceModels& surface, const Interior& interior,
+                   const SurfacePoints& points, const Vec3Span& values);
+
+  private:
+    /// Whether each plugin's results are checked right after its call, instead of once at the end.
+    enum class Scrutiny : bool { none, each_step };
+    using Lights = std::vector<const LitSource*>;
+    /// Adds up, part by part, what the reflection model reflects of each of `lights`.
+    void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+                const Lights& lights, Scrutiny scrutiny);
+    /// Adds the light to those that are data, or returns false if it cannot describe itself as such.
+    bool describe(const LitSource& source);
+    void find_tangents(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count);
+    /// Writes to `reflected_` what the reflection model reflects of all lights that are data. Returns false
+    /// if there are no such lights or the model cannot evaluate them.
+    bool reflect_punctual(const SurfaceModels& surface, const SurfacePoints& points);
+    void find_n_dot_l(const SurfacePoints& points, const Vec3Span& values);
+    void scrutinize(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
+    /// The reflection model's input; the arrays are this object's and the points'.
+    SurfaceBatch lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
+                             std::size_t count) const;
+    void find_normals(const SurfaceModels& surface, const SurfacePoints& points);
+    std::array<Vec3Arrays*, 8> written_by_plugins();
+    void mark_ends();
+    static bool are_ends_intact(std::span<Vec3Arrays* const> written);
+    void require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
+                       std::initializer_list<const Vec3Arrays*> results);
+
+    LitScene scene_;
+    Lights lights_, other_lights_;  // all, and those that are not data
+    std::vector<PunctualLight> punctual_lights_;
+    PunctualLighting lighting_;                         // refers to them
+    std::unique_ptr<ObjectSurroundings> surroundings_;  // created when a model asks
+    Vec3Arrays normal_, to_observer_, tangent_;
+    Vec3Arrays to_light_, light_diffuse_, light_specular_;
+    Vec3Arrays ambient_, diffuse_, specular_;
+    Vec3Arrays reflected_;  // of the lights that are data
+};
+
+}  // namespace candela

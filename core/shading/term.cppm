@@ -1,0 +1,33 @@
+// The values that a picture can show instead of the intensity: the intensity's terms, and its inputs.
+export module candela.shading:term;
+
+export namespace candela {
+
+enum class Term {
+    // Found where light is evaluated (at faces, vertices or fragments, depending on the shading model) and
+    // carried to the pixels like the intensity. Sums are over the scene's lights.
+    intensity,     // I, and the background
+    ambient,       // I_a
+    diffuse,       // the sum of I_d
+    specular,      // the sum of I_s, and what transparent surfaces show of their surroundings
+    surroundings,  // only those surroundings
+    n_dot_l,       // N.L, averaged over the lights' samples; below zero for light from behind
+    normal,        // N, world space; not unit where it is interpolated between vertices
+
+    background,  // where no object is visible; black elsewhere
+
+    // Found at the fragment in the middle of each pixel, so that nothing is averaged.
+    depth,        // distance from the observer along the view direction; infinity where there is no object
+    position,     // world space
+    face_normal,  // world space, unit, of the visible side
+    barycentric,  // coordinates on the triangle
+    uv,           // texture coordinates; zero on meshes that have none
+    facing,       // 1, or -1 where an open surface is seen from behind; 0 where there is no object
+    object,       // index among the scene's, from 0; -1 where there is none
+    triangle      // index in the object's mesh; -1 where there is none
+};
+
+/// Whether a term is found at one fragment per pixel.
+constexpr bool is_geometric(Term term) noexcept { return term >= Term::depth; }
+
+}  // namespace candela

@@ -1,0 +1,112 @@
+module;
+
+#include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+module candela.shading;
+
+import :guarded;
+import :surroundings;
+import :trace;
+import candela.api;
+import candela.plugins;
+import candela.raster;
+
+namespace candela {
+
+namespace {
+
+Vec3 first_of(const Vec3Arrays& arrays) { return arrays.span()[0]; }
+
+}  // namespace
+
+// The sums are those of shade(); each light's share is then computed separately.
+PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& interior,
+                                const SurfacePoints& points) {
+    if (points.count != 1) throw std::invalid_argument("SurfaceShader::trace() traces a single point");
+    Vec3Arrays intensity;
+    intensity.resize(k_batch_size);
+    shade(surface, interior, points, intensity.span());
+    add_up(surface, interior, points, lights_, Scrutiny::none);
+    PointNeeds needs = surface.needs();
+    needs.triangle &= surface.shading->shading_rate() != ShadingRate::vertex;
+    const bool needs_tangent = surface.reflection->needs_tangent();
+    PointTrace trace{.position = first_of(points.position),
+                     .normal = first_of(normal_),
+                     .to_observer = first_of(to_observer_),
+                     .tangent = needs_tangent ? first_of(tangent_) : Vec3{},
+                     .color = points.has_color ? first_of(points.color)
+                                               : Vec3{surface.color.r, surface.color.g, surface.color.b},
+                     .face_normal = first_of(points.face_normal),
+                     .vertex_normal = first_of(points.vertex_normal),
+                     .barycentric = first_of(points.barycentric),
+                     .u = needs.uv ? points.u[0] : 0,
+                     .v = needs.uv ? points.v[0] : 0,
+                     .dpdu = needs.derivatives ? first_of(points.dpdu) : Vec3{},
+                     .dpdv = needs.derivatives ? first_of(points.dpdv) : Vec3{},
+                     .from_behind = points.facing[0] < 0,
+                     .ambient = first_of(ambient_),
+                     .diffuse = first_of(diffuse_),
+                     .specular = first_of(specular_),
+                     .intensity = first_of(intensity)};
+
+    for (std::size_t k = 0; needs.triangle && k < 3; ++k) {
+        trace.corner_position[k] = first_of(points.corner_position[k]);
+        trace.corner_normal[k] = first_of(points.corner_normal[k]);
+    }
+    const std::size_t count = surface.reflection->shows_surroundings() ? points.count : points.filled;
+    const ReceiverBatch receivers{
+        .count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()};
+    const SurfaceBatch batch = lit_surface(surface, points, count);
+    const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
+    const auto clear = [&] {
+        for (const Vec3Span& part : {reflected.ambient, reflected.diffuse, reflected.specular}) {
+            for (float* const channel : {part.x, part.y, part.z}) std::fill_n(channel, count, 0.0f);
+        }
+    };
+    const auto add = [&](LightTrace light) {
+        light.reflected_ambient = first_of(ambient_);
+        light.reflected_diffuse = first_of(diffuse_);
+        light.reflected_specular = first_of(specular_);
+        trace.lights.push_back(light);
+    };
+    for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
+        const LitSource& source = scene_.lights[i];
+        for (int sample = 0; sample < source.light->sample_count(); ++sample) {
+            clear();
+            guarded(PluginKind::light, source.plugin, [&] {
+                source.light->illuminate(sample, receivers,
+                                         {to_light_.span(), light_diffuse_.span(), light_specular_.span()});
+            });
+            guarded(PluginKind::reflection, surface.reflection_plugin, [&] {
+                surface.reflection->reflect(
+                    batch, {to_light_.span(), light_diffuse_.span(), light_specular_.span()}, reflected);
+            });
+            add({.light = i,
+                 .sample = sample,
+                 .to_light = first_of(to_light_),
+                 .diffuse = first_of(light_diffuse_),
+                 .specular = first_of(light_specular_)});
+        }
+        if (source.light->has_ambient()) {
+            clear();
+            guarded(PluginKind::light, source.plugin,
+                    [&] { source.light->illuminate_ambient(receivers, light_diffuse_.span()); });
+            guarded(PluginKind::reflection, surface.reflection_plugin,
+                    [&] { surface.reflection->reflect_ambient(batch, light_diffuse_.span(), reflected); });
+            add({.light = i, .diffuse = first_of(light_diffuse_)});
+        }
+    }
+    if (surface.reflection->shows_surroundings()) {
+        clear();
+        guarded(PluginKind::reflection, surface.reflection_plugin,
+                [&] { surface.reflection->show_surroundings(batch, *surroundings_, reflected); });
+        trace.surroundings = first_of(specular_);
+    }
+    return trace;
+}
+
+}  // namespace candela

@@ -1,0 +1,50 @@
+// The steps of shading one point.
+module;
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+export module candela.shading:trace;
+
+import candela.api;
+
+export namespace candela {
+
+/// The light that one sample of a light source sends to a point, and what the surface reflects of it.
+struct LightTrace {
+    static constexpr int k_ambient = -1;
+
+    std::size_t light = 0;   // index among the scene's
+    int sample = k_ambient;  // of the light; k_ambient: its ambient part
+    Vec3 to_light{};         // L, unit; zero for ambient light
+    Vec3 diffuse{};  // the intensity that arrives, per channel; the ambient intensity for ambient light
+    Vec3 specular{};
+    Vec3 reflected_ambient{};
+    Vec3 reflected_diffuse{};
+    Vec3 reflected_specular{};
+};
+
+/// A point at which light is evaluated. World space; directions are unit vectors that point away from the
+/// surface.
+struct PointTrace {
+    Vec3 position{};
+    Vec3 normal{};  // N, from the shading model
+    Vec3 to_observer{};
+    Vec3 tangent{};        // zero unless the reflection model needs it
+    Vec3 color{};          // C_o
+    Vec3 face_normal{};    // of the visible side, as are the following
+    Vec3 vertex_normal{};  // interpolated, not unit
+    Vec3 barycentric{};
+    float u = 0, v = 0;
+    Vec3 dpdu{}, dpdv{};
+    std::array<Vec3, 3> corner_position{};  // of its triangle; zero unless the shading model needs them
+    std::array<Vec3, 3> corner_normal{};
+    bool from_behind = false;  // the surface is open and its normal has been flipped
+    std::vector<LightTrace> lights{};
+    Vec3 surroundings{};                    // what a transparent surface shows of them
+    Vec3 ambient{}, diffuse{}, specular{};  // I_a, I_d, I_s: sums over the lights
+    Vec3 intensity{};                       // I, as the renderer computes it
+};
+
+}  // namespace candela

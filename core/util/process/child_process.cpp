@@ -1,0 +1,248 @@
+module;
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/mman.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#define BOOST_PROCESS_USE_STD_FS
+#include <algorithm>
+#include <array>
+#include <boost/process/args.hpp>
+#include <boost/process/child.hpp>
+#include <boost/process/extend.hpp>
+#include <boost/process/posix.hpp>
+#include <boost/process/search_path.hpp>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+module candela.util;
+
+namespace candela {
+
+namespace {
+
+namespace process = boost::process;
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+constexpr milliseconds k_longest_end{2000};
+
+/// Not inherited by other programs.
+class Descriptor {
+  public:
+    explicit Descriptor(int number) : number_(number) {
+        if (number < 0) {
+            throw Error(
+                ErrorCategory::failure,
+                fmt::format("cannot create a connection to another program: {}", std::strerror(errno)));
+        }
+    }
+    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+    Descriptor& operator=(Descriptor&&) = delete;
+    ~Descriptor() {
+        if (number_ >= 0) ::close(number_);
+    }
+    int number() const { return number_; }
+
+  private:
+    int number_;
+};
+
+/// Writing to a socket does not raise SIGPIPE; writing to a pipe may.
+std::array<Descriptor, 2> connected() {
+    std::array<int, 2> ends{-1, -1};
+    static_cast<void>(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()));
+    return {Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
+/// The contents of a file in memory.
+std::string content_of(const Descriptor& file) {
+    struct stat status{};
+    if (::fstat(file.number(), &status) != 0) return {};
+    std::string text(static_cast<std::size_t>(status.st_size), '\0');
+    std::size_t done = 0;
+    while (done < text.size()) {
+        const ssize_t count =
+            ::pread(file.number(), text.data() + done, text.size() - done, static_cast<off_t>(done));
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) break;
+        done += static_cast<std::size_t>(count);
+    }
+    text.resize(done);
+    return text;
+}
+
+/// A program that runs in parallel with this one and receives input on its standard input.
+class ChildProcess {
+  public:
+    /// `output`: the descriptor that it prints to; -1: the one that its input comes from.
+    explicit ChildProcess(const std::vector<std::string>& words, int output = -1)
+        // In memory, so that a program that prints a lot does not wait for a reader.
+        : errors_(::memfd_create("errors", MFD_CLOEXEC)) {
+        std::array<Descriptor, 2> ends = connected();
+        const std::vector<std::string> arguments(words.begin() + 1, words.end());
+        const std::lock_guard lock(starting());
+        try {
+            process::child child(
+                std::filesystem::path(words.front()), process::args(arguments),
+                process::extend::on_exec_setup = [](auto&) { shed_inheritance(); },
+                process::posix::fd.bind(STDIN_FILENO, ends[1].number()),
+                process::posix::fd.bind(STDOUT_FILENO, output < 0 ? ends[1].number() : output),
+                process::posix::fd.bind(STDERR_FILENO, errors_.number()));
+            process_ = child.id();
+            child.detach();
+        } catch (const std::system_error& problem) {
+            throw Error(ErrorCategory::failure,
+                        fmt::format("'{}' cannot be run: {}", words.front(), problem.code().message()));
+        }
+        connection_.emplace(std::move(ends[0]));
+    }
+    ChildProcess(const ChildProcess&) = delete;
+    ChildProcess& operator=(const ChildProcess&) = delete;
+    ~ChildProcess() {
+        if (process_ < 0) return;
+        ::kill(process_, SIGTERM);
+        const auto end = steady_clock::now() + k_longest_end;
+        while (is_running()) {
+            if (steady_clock::now() > end) ::kill(process_, SIGKILL);
+            std::this_thread::sleep_for(milliseconds(1));
+        }
+    }
+
+    const Descriptor& connection() const { return *connection_; }
+    std::string errors() const { return content_of(errors_); }
+
+    /// Returns false if the program has ended.
+    bool send(std::string_view text) const {
+        while (!text.empty()) {
+            const ssize_t count = ::send(connection_->number(), text.data(), text.size(), MSG_NOSIGNAL);
+            if (count < 0 && errno == EINTR) continue;
+            if (count <= 0) return false;
+            text.remove_prefix(static_cast<std::size_t>(count));
+        }
+        return true;
+    }
+
+    ProgramEnd await(const Patience& patience) const { return Overseer(process_, patience).await(); }
+
+    /// Waits for its end. Returns its exit code, or 128 + signal if a signal ended it.
+    int wait() {
+        int status = 0;
+        pid_t ended = -1;
+        do {
+            ended = ::waitpid(process_, &status, 0);
+        } while (ended < 0 && errno == EINTR);
+        process_ = -1;
+        // Code that ends all programs may have waited for this one already.
+        if (ended < 0) return 128 + SIGKILL;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    }
+
+  private:
+    /// May also have been waited for already.
+    bool is_running() const { return ::waitpid(process_, nullptr, WNOHANG) == 0; }
+
+    Descriptor errors_;
+    std::optional<Descriptor> connection_;
+    pid_t process_ = -1;
+};
+
+}  // namespace
+
+class AnsweringProgram::Implementation {
+  public:
+    explicit Implementation(const std::vector<std::string>& words) : program_(words) {}
+
+    std::optional<std::string> answer(std::string line, milliseconds patience) {
+        const auto end = steady_clock::now() + patience;
+        line += '\n';
+        if (!program_.send(line)) return std::nullopt;
+        for (;;) {
+            if (const std::size_t at = received_.find('\n'); at != std::string::npos) {
+                std::string found = received_.substr(0, at);
+                received_.erase(0, at + 1);
+                return found;
+            }
+            if (!receive(std::chrono::duration_cast<milliseconds>(end - steady_clock::now())))
+                return std::nullopt;
+        }
+    }
+
+    std::string errors() const { return program_.errors(); }
+
+  private:
+    /// Returns false at the end of the program, or when patience runs out.
+    bool receive(milliseconds patience) {
+        const int connection = program_.connection().number();
+        pollfd source{.fd = connection, .events = POLLIN, .revents = 0};
+        const int ready = ::poll(&source, 1, static_cast<int>(std::max(patience, milliseconds(0)).count()));
+        if (ready < 0 && errno == EINTR) return true;
+        if (ready <= 0) return false;
+        std::array<char, 65536> part{};
+        const ssize_t count = ::recv(connection, part.data(), part.size(), 0);
+        if (count <= 0) return count < 0 && errno == EINTR;
+        received_.append(part.data(), static_cast<std::size_t>(count));
+        return true;
+    }
+
+    ChildProcess program_;
+    std::string received_;
+};
+
+AnsweringProgram::AnsweringProgram(const std::vector<std::string>& words)
+    : implementation_(std::make_unique<Implementation>(words)) {}
+AnsweringProgram::~AnsweringProgram() = default;
+
+std::optional<std::string> AnsweringProgram::answer(std::string line, milliseconds patience) {
+    return implementation_->answer(std::move(line), patience);
+}
+
+std::string AnsweringProgram::errors() const { return implementation_->errors(); }
+
+class WaitingProgram::Implementation {
+  public:
+    explicit Implementation(const std::vector<std::string>& words)
+        : output_(::memfd_create("output", MFD_CLOEXEC)), program_(words, output_.number()) {}
+
+    std::optional<ProgramOutput> go_on(const Patience& patience) {
+        if (!program_.send("\n")) return std::nullopt;
+        ProgramOutput result;
+        result.end = program_.await(patience);
+        result.exit_code = program_.wait();
+        result.out = content_of(output_);
+        result.err = program_.errors();
+        return result;
+    }
+
+  private:
+    Descriptor output_;
+    ChildProcess program_;
+};
+
+WaitingProgram::WaitingProgram(const std::vector<std::string>& words)
+    : implementation_(std::make_unique<Implementation>(words)) {}
+WaitingProgram::~WaitingProgram() = default;
+
+std::optional<ProgramOutput> WaitingProgram::go_on(const Patience& patience) {
+    return implementation_->go_on(patience);
+}
+
+}  // namespace candela

@@ -1,0 +1,28 @@
+module;
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+module candela.util;
+
+namespace candela {
+
+std::optional<std::filesystem::path> cxx_compiler() {
+    if (const char* const chosen = std::getenv("CXX"); chosen != nullptr && *chosen != '\0') {
+        if (auto found = program_called(chosen)) return found;
+    }
+    constexpr int k_newest = 30, k_oldest = 9;
+    for (const char* const name : {"clang++", "g++"}) {
+        for (int version = k_newest; version >= k_oldest; --version) {
+            if (auto found = program_called(fmt::format("{}-{}", name, version))) return found;
+        }
+        if (auto found = program_called(name)) return found;
+    }
+    return program_called("c++");
+}
+
+}  // namespace candela

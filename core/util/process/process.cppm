@@ -1,0 +1,136 @@
+// Runs programs of this machine, without a shell.
+module;
+
+#include "candela/plugin/export.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+export module candela.util:process;
+
+namespace candela {
+
+/// Lock it while making pipes and starting a program. A program that another thread starts at that moment
+/// would keep the pipes open, and their reader would wait for its end.
+std::mutex& starting();
+
+/// Call it in the child process before exec. Otherwise the new program would inherit the signals that the
+/// thread has blocked, and the open files and sockets. It keeps only the three standard streams.
+/// Async-signal-safe.
+void shed_inheritance() noexcept;
+
+}  // namespace candela
+
+export namespace candela {
+
+/// How a program ended: by itself, or by run_program(), because its time was up or it was no longer wanted.
+enum class ProgramEnd { own, late, unwanted };
+
+/// A program's exit code (128 + signal if a signal ended it), and what it printed.
+struct ProgramOutput {
+    int exit_code = 0;
+    std::string out, err;
+    ProgramEnd end = ProgramEnd::own;
+};
+
+/// How long a program may take, and who may end it earlier. It is ended by SIGTERM and, if still running two
+/// seconds later, by SIGKILL.
+struct Patience {
+    std::optional<std::chrono::milliseconds> longest{};
+    std::stop_token unwanted{};
+};
+
+/// The path of an executable of that name on PATH.
+CANDELA_EXPORT std::optional<std::filesystem::path> program_called(const std::string& name);
+
+/// The C++ compiler of this machine: the one that the environment variable CXX names, otherwise the newest
+/// clang++, otherwise the newest g++. Nothing if there is none.
+CANDELA_EXPORT std::optional<std::filesystem::path> cxx_compiler();
+
+/// Runs a program without input and waits for it. A name without '/' is looked up on PATH. Throws Error
+/// (failure) if the program cannot be started. Any thread.
+CANDELA_EXPORT ProgramOutput run_program(const std::vector<std::string>& words,
+                                         const Patience& patience = {});
+
+/// Like run_program(), but inherits this process's streams. Returns the exit code.
+CANDELA_EXPORT int show_program(const std::vector<std::string>& words);
+
+/// A program that answers each line of input with a line, and ends at the end of its input. One thread at a
+/// time.
+class CANDELA_EXPORT AnsweringProgram {
+  public:
+    /// Starts the program; throws like run_program().
+    explicit AnsweringProgram(const std::vector<std::string>& words);
+    AnsweringProgram(const AnsweringProgram&) = delete;
+    AnsweringProgram& operator=(const AnsweringProgram&) = delete;
+    /// Ends the program and waits for it.
+    ~AnsweringProgram();
+
+    /// Returns the program's answer to `line`, both without a line break. Nothing if the program ends or does
+    /// not answer in time; it is then unusable.
+    std::optional<std::string> answer(std::string line, std::chrono::milliseconds patience);
+    /// Everything that it has printed on its standard error so far.
+    std::string errors() const;
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+/// A program that prepares itself, then waits for a line on its standard input before doing its work. One
+/// thread at a time.
+class CANDELA_EXPORT WaitingProgram {
+  public:
+    /// Starts the program; throws like run_program().
+    explicit WaitingProgram(const std::vector<std::string>& words);
+    WaitingProgram(const WaitingProgram&) = delete;
+    WaitingProgram& operator=(const WaitingProgram&) = delete;
+    /// Ends the program and waits for it.
+    ~WaitingProgram();
+
+    /// Tells the program to continue, and waits for its end. Nothing if it had already ended. Call it once.
+    std::optional<ProgramOutput> go_on(const Patience& patience = {});
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace candela
+
+namespace candela {
+
+/// Ends a program that runs out of patience.
+class Overseer {
+  public:
+    /// `process`: its process ID. Nobody else may wait for the process until await() has returned.
+    Overseer(int process, const Patience& patience);
+    Overseer(const Overseer&) = delete;
+    Overseer& operator=(const Overseer&) = delete;
+    ~Overseer();
+
+    /// Waits for the program's end, and returns how it ended. The exit status can still be collected from the
+    /// system.
+    ProgramEnd await();
+
+  private:
+    void dismiss();
+    void oversee(const Patience& patience);
+
+    int process_;
+    std::mutex mutex_;
+    std::condition_variable_any news_;
+    bool has_ended_ = false;
+    ProgramEnd end_ = ProgramEnd::own;
+    std::thread thread_;
+};
+
+}  // namespace candela

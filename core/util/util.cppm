@@ -1,0 +1,11 @@
+// What every stage uses: messages, files, processes, memory, texts.
+export module candela.util;
+
+export import :arrays;
+export import :canary;
+export import :diagnostics;
+export import :files;
+export import :memory;
+export import :process;
+export import :simd;
+export import :text;

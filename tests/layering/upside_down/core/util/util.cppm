@@ -1,0 +1,3 @@
+export module candela.util;
+
+import candela.api;

@@ -1,0 +1,4 @@
+#include "candela/plugin.h"
+
+import candela.api;
+import candela.util;

@@ -1,3 +1,0 @@
-export module candela.files;
-
-import candela.light;

@@ -1,4 +1,0 @@
-#include "candela/plugin.h"
-
-import candela.files;
-import candela.light;
