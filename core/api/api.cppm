@@ -89,7 +89,7 @@ using candela::RelationType;
 // candela/scanline_image.h
 using candela::PictureRows;
 using candela::RandomAccessSink;
-using candela::RowFormat;
+using candela::ScanlineImageFormat;
 using candela::ViewedRows;
 
 // candela/pool.h
@@ -100,12 +100,12 @@ using candela::PunctualLight;
 using candela::PunctualLighting;
 
 // candela/reflection_model.h
+using candela::Environment;
 using candela::ExitBatch;
 using candela::LightingBatch;
 using candela::ReflectedBatch;
 using candela::ReflectionModel;
 using candela::SurfaceBatch;
-using candela::Surroundings;
 
 // candela/shading_model.h
 using candela::MeshView;

@@ -16,15 +16,15 @@ namespace candela {
 
 namespace {
 
-using Place = std::array<std::uint32_t, 3>;
+using PositionBits = std::array<std::uint32_t, 3>;
 
-Place place_of(Vec3 p) {
+PositionBits bits_of(Vec3 p) {
     const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 is 0
     return {bits(p.x), bits(p.y), bits(p.z)};
 }
 
 struct Hash {
-    std::size_t operator()(const Place& place) const {
+    std::size_t operator()(const PositionBits& place) const {
         std::uint64_t h = 0x9e3779b97f4a7c15u;
         for (const std::uint32_t bits : place) h = (h ^ bits) * 0xff51afd7ed558ccdu, h ^= h >> 32;
         return h;
@@ -33,16 +33,16 @@ struct Hash {
 
 /// Sorts vertices and their positions by a part of the positions' hashes, so that the table of each part is
 /// small enough for the cache. Within a part the order is kept.
-class Parts {
+class HashBuckets {
   public:
     static constexpr std::size_t k_count = 256;
 
     struct Vertex {
-        Place place;
+        PositionBits place;
         std::uint32_t number;
     };
 
-    Parts(ConstVec3Span position, std::size_t count)
+    HashBuckets(ConstVec3Span position, std::size_t count)
         : vertices_(std::make_unique_for_overwrite<Vertex[]>(count)) {
         prefer_large_pages(vertices_.get(), count * sizeof(Vertex));
         const std::size_t blocks = (count + k_block - 1) / k_block;
@@ -57,7 +57,7 @@ class Parts {
             });
         };
         each_block([&](auto& counts, std::size_t i) {
-            part_of[i] = static_cast<std::uint8_t>(Hash()(place_of(position[i])) >> 56);
+            part_of[i] = static_cast<std::uint8_t>(Hash()(bits_of(position[i])) >> 56);
             ++counts[part_of[i]];
         });
         std::uint32_t next = 0;
@@ -71,7 +71,7 @@ class Parts {
         }
         begin_[k_count] = next;
         each_block([&](auto& goals, std::size_t i) {
-            vertices_[goals[part_of[i]]++] = {place_of(position[i]), static_cast<std::uint32_t>(i)};
+            vertices_[goals[part_of[i]]++] = {bits_of(position[i]), static_cast<std::uint32_t>(i)};
         });
     }
 
@@ -89,12 +89,12 @@ class Parts {
 /// Finds the first vertex at each position. Open addressing in one array, which stays in the cache.
 class PlaceTable {
   public:
-    void run(std::span<const Parts::Vertex> vertices, std::uint32_t* first) {
+    void run(std::span<const HashBuckets::Vertex> vertices, std::uint32_t* first) {
         constexpr std::uint32_t k_free = 0xffff'ffffu;
         const std::size_t mask = std::bit_ceil(2 * vertices.size() + 1) - 1;
         slots_.assign(mask + 1, k_free);
         for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-            const Parts::Vertex& v = vertices[i];
+            const HashBuckets::Vertex& v = vertices[i];
             for (std::size_t at = Hash()(v.place) & mask;; at = (at + 1) & mask) {
                 std::uint32_t& slot = slots_[at];
                 if (slot == k_free) slot = i;
@@ -112,7 +112,7 @@ class PlaceTable {
 }  // namespace
 
 std::vector<std::uint32_t> welded(ConstVec3Span position, std::size_t count) {
-    using FirstAt = boost::unordered_flat_map<Place, std::uint32_t, Hash>;
+    using FirstAt = boost::unordered_flat_map<PositionBits, std::uint32_t, Hash>;
     std::vector<std::uint32_t> first(count);
     constexpr std::size_t k_worth_parts = 200'000;
     if (count < k_worth_parts) {
@@ -120,11 +120,11 @@ std::vector<std::uint32_t> welded(ConstVec3Span position, std::size_t count) {
         first_at.reserve(count);
         for (std::size_t i = 0; i < count; ++i)
             first[i] =
-                first_at.try_emplace(place_of(position[i]), static_cast<std::uint32_t>(i)).first->second;
+                first_at.try_emplace(bits_of(position[i]), static_cast<std::uint32_t>(i)).first->second;
         return first;
     }
-    const Parts parts(position, count);
-    parallel_for(Parts::k_count, 1, [&](std::size_t begin, std::size_t end) {
+    const HashBuckets parts(position, count);
+    parallel_for(HashBuckets::k_count, 1, [&](std::size_t begin, std::size_t end) {
         PlaceTable table;
         for (std::size_t part = begin; part < end; ++part) table.run(parts[part], first.data());
     });

@@ -79,15 +79,14 @@ struct Scene::Parts {
                    [this](const Refusal& refusal) { replaced.push_back(warning_of(refusal)); }),
           request(std::move(wanted)),
           renderer(candela::Renderer::Keep::visibility) {
-        compile(request);
+        build(request);
     }
 
     /// Keeps the previous scene if the new one has errors.
-    void compile(const SceneRequest& wanted) {
+    void build(const SceneRequest& wanted) {
         Diagnostics diagnostics;
         const auto draft = draft_scene(wanted, registry, diagnostics);
-        auto compiled =
-            draft ? candela::compile(*draft, registry, diagnostics, options.threads) : std::nullopt;
+        auto compiled = draft ? candela::build(*draft, registry, diagnostics, options.threads) : std::nullopt;
         std::vector<Problem> problems = problems_of(diagnostics);
         if (!compiled) {
             const std::string text = text_of(problems);
@@ -114,7 +113,7 @@ struct Scene::Parts {
     std::vector<Problem> replaced;  // plugins, which the registry reports once
     Registry registry;              // outlives what its plugins created
     SceneRequest request;
-    std::optional<CompiledScene> scene;
+    std::optional<RenderScene> scene;
     std::vector<Problem> warnings;
     candela::Renderer renderer;
 };
@@ -146,7 +145,7 @@ void Scene::set(std::string_view path, std::string_view value) {
         SceneRequest changed = parts_->request;
         std::erase_if(changed.settings, [&](const Setting& setting) { return setting.path == path; });
         changed.settings.push_back({fmt::format("set {}", path), std::string(path), std::string(value)});
-        parts_->compile(changed);
+        parts_->build(changed);
         parts_->request = std::move(changed);
     });
 }

@@ -35,9 +35,11 @@ Vector3d vector(Vec3 p) { return {p.x, p.y, p.z}; }
 double triple_product(const Vector3d& a, const Vector3d& b, const Vector3d& c) { return a.dot(b.cross(c)); }
 
 /// Union-find over the connected parts that vertices belong to: union by size, path halving.
-class Parts {
+class ConnectedComponents {
   public:
-    explicit Parts(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    explicit ConnectedComponents(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
 
     std::uint32_t of(std::uint32_t i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
@@ -254,7 +256,7 @@ Body::Body(ConstVec3Span position, std::size_t vertex_count, std::span<const std
     s.position.reserve(vertex_count);
     for (std::size_t i = 0; i < vertex_count; ++i) s.position.push_back(vector(position[i]));
     const std::vector<std::uint32_t> place = welded(position, vertex_count);
-    Parts parts(vertex_count);
+    ConnectedComponents parts(vertex_count);
     for (std::size_t corner = 0; corner + 2 < indices.size(); corner += 3) {
         const std::array<std::uint32_t, 3> t = {place[indices[corner]], place[indices[corner + 1]],
                                                 place[indices[corner + 2]]};

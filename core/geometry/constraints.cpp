@@ -40,7 +40,7 @@ constexpr std::array<char, 3> k_axis_names = {'x', 'y', 'z'};
 
 std::array<float, 3> components(Vec3 v) { return {v.x, v.y, v.z}; }
 
-std::string at(const SourcePlace& place) {
+std::string at(const SourceLocation& place) {
     return place.line > 0 ? fmt::format(" (at {}:{}:{})", place.file, place.line, place.column)
                           : std::string();
 }
@@ -93,7 +93,7 @@ class Checker {
     }
 
     /// One message, for the axis along which it is farthest outside.
-    void report_if_outside(const std::string& what, const Box& box, Vec3 half, const SourcePlace& place) {
+    void report_if_outside(const std::string& what, const Box& box, Vec3 half, const SourceLocation& place) {
         const auto low = components(box.low), high = components(box.high), room = components(half);
         std::size_t worst = 0;
         float distance = 0;
@@ -136,7 +136,7 @@ class Checker {
         }
     }
 
-    void report_if_inside(const std::string& what, Vec3 point, const SourcePlace& place) {
+    void report_if_inside(const std::string& what, Vec3 point, const SourceLocation& place) {
         for (const std::size_t i : tree_.at(point)) {
             if (surfaces_[i].empty() || is_hollow(i) || !body(i).contains(point)) continue;
             diagnostics_.error(
@@ -178,7 +178,7 @@ class Checker {
         }
     }
 
-    void report_overlap(const SourcePlace& place, std::string message) {
+    void report_overlap(const SourceLocation& place, std::string message) {
         if (scene_.constraints.overlap == Severity::warning) {
             diagnostics_.warning(place, std::move(message));
         } else {

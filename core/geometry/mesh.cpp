@@ -272,7 +272,7 @@ Vec3Arrays group_normals(const PlacedShape& placed, const ShadingModel& shading)
     constexpr std::size_t k_guard_size = 16;
     normal.resize(count + k_guard_size);
     for (AlignedVector<float>* const array : {&normal.x, &normal.y, &normal.z})
-        fill_with_guard(std::span(*array).subspan(count));
+        fill_with_canary(std::span(*array).subspan(count));
     const MeshView view{
         .position = mesh.position.span(),
         .indices = mesh.indices,
@@ -283,7 +283,7 @@ Vec3Arrays group_normals(const PlacedShape& placed, const ShadingModel& shading)
         .authored_normal = placed.authored_normal.empty() ? ConstVec3Span{} : placed.authored_normal.span()};
     shading.vertex_normals(view, normal.span());
     for (const AlignedVector<float>* const array : {&normal.x, &normal.y, &normal.z}) {
-        if (!is_guard_intact(std::span(*array).subspan(count)))
+        if (!is_canary_intact(std::span(*array).subspan(count)))
             throw std::invalid_argument("it writes more vertex normals than there are vertices");
     }
     return normal;

@@ -329,7 +329,7 @@ const Value& ParamSet::get(std::string_view name) const {
     return *values_[index];
 }
 
-std::vector<ParamValue> ParamSet::delivered(ColorEncoding encoding) const {
+std::vector<ParamValue> ParamSet::runtime(ColorEncoding encoding) const {
     std::vector<ParamValue> result(schema_->size());
     for (std::size_t i = 0; i < schema_->size(); ++i) {
         const Parameter& p = (*schema_)[i];

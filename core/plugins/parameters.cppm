@@ -111,7 +111,7 @@ class CANDELA_EXPORT ParamSet {
 
     /// The values as a plugin receives them, in the schema's order. Texts point into this set. Throws
     /// std::invalid_argument if a required value is not set.
-    std::vector<ParamValue> delivered(ColorEncoding encoding) const;
+    std::vector<ParamValue> runtime(ColorEncoding encoding) const;
 
     /// Equal schemas and equal values.
     friend CANDELA_EXPORT bool operator==(const ParamSet& a, const ParamSet& b);

@@ -345,7 +345,7 @@ std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string
     const PluginFile& file = require(kind, name);
     const PluginDescriptor& descriptor = load(file);
     try {
-        std::unique_ptr<Instance> instance(descriptor.create(values.delivered(encoding)));
+        std::unique_ptr<Instance> instance(descriptor.create(values.runtime(encoding)));
         if (instance == nullptr) throw std::runtime_error("created nothing");
         return instance;
     } catch (...) {

@@ -81,7 +81,7 @@ IndexedMesh indexed(const ProjectedMesh& source) {
 }
 
 /// Whole vectors are written; the next run overwrites the excess.
-struct PlacesLoop {
+struct PixelPositionLoop {
     CANDELA_BATCH_LOOP static void run(const FragmentRun* runs, std::size_t count, float* x, float* y) {
         for (const FragmentRun* run = runs; run != runs + count; ++run) {
             for (std::size_t first = 0; first < run->count; first += k_lanes) {
@@ -116,7 +116,7 @@ struct DifferencesLoop {
 
 /// The fragments of a batch: their positions and triangles. The last one is repeated, to pad the batch and
 /// because whole vectors that begin anywhere reach past its end.
-struct Places {
+struct PixelPositions {
     static constexpr std::size_t k_behind = 2 * k_lanes;
 
     alignas(64) std::array<float, k_batch_size + k_behind> x, y;
@@ -124,9 +124,9 @@ struct Places {
     alignas(64) std::array<std::uint32_t, k_batch_size + k_behind> triangle;
     alignas(64) std::array<std::uint32_t, k_batch_size / k_lanes> differing;
 
-    explicit Places(const FragmentBatch& batch) {
+    explicit PixelPositions(const FragmentBatch& batch) {
         const std::size_t count = batch.triangles.size();
-        multiversion<PlacesLoop>(batch.runs.data(), batch.runs.size(), x.data(), y.data());
+        multiversion<PixelPositionLoop>(batch.runs.data(), batch.runs.size(), x.data(), y.data());
         std::fill_n(&x[count], k_behind, x[count - 1]);
         std::fill_n(&y[count], k_behind, y[count - 1]);
         is_one_triangle = are_all_equal(batch.triangles);
@@ -182,9 +182,9 @@ Interpolated interpolated_for(PointNeeds needs) {
 /// fragments on one triangle read it once, in other vectors each fragment reads its own.
 class BatchInterpolation {
   public:
-    BatchInterpolation(const ProjectedMesh& source, const Places& places, Interpolated what,
+    BatchInterpolation(const ProjectedMesh& source, const PixelPositions& positions, Interpolated what,
                        SurfacePoints& points)
-        : source_(source), places_(places), what_(what), points_(points) {}
+        : source_(source), places_(positions), what_(what), points_(points) {}
 
     void run() {
         for (std::size_t first = 0; first < points_.filled; first += k_lanes) {
@@ -224,7 +224,7 @@ class BatchInterpolation {
     }
 
     const ProjectedMesh& source_;
-    const Places& places_;
+    const PixelPositions& places_;
     Interpolated what_;
     SurfacePoints& points_;
 };
@@ -242,9 +242,9 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
     }
     const bool is_faceted = source.mesh.is_faceted && needs.vertex_normal;
     needs.face_normal = needs.face_normal || is_faceted;
-    const Places places(batch);
-    BatchInterpolation interpolation(source, places, interpolated_for(needs), points);
-    if (places.is_one_triangle) {
+    const PixelPositions positions(batch);
+    BatchInterpolation interpolation(source, positions, interpolated_for(needs), points);
+    if (positions.is_one_triangle) {
         interpolation.on_one_triangle(batch.triangles[0], 0, points.filled);
     } else if (source.scene.is_moderate) {
         interpolation.run();

@@ -155,12 +155,12 @@ class TileRaster {
 
     void see(const TriangleBin& bin, std::span<const BinnedTriangle> triangles) {
         if (scene_.samples > 1) {
-            for (const BinnedTriangle& triangle : triangles) see_large(corners_of(bin, triangle));
+            for (const BinnedTriangle& triangle : triangles) rasterize_large(corners_of(bin, triangle));
             return;
         }
         for (std::size_t first = 0; first < triangles.size(); first += SmallTriangles::k_size)
-            see_some(bin,
-                     triangles.subspan(first, std::min(SmallTriangles::k_size, triangles.size() - first)));
+            rasterize_binned(
+                bin, triangles.subspan(first, std::min(SmallTriangles::k_size, triangles.size() - first)));
     }
 
   private:
@@ -172,27 +172,27 @@ class TileRaster {
     }
 
     /// In order, because the first of several equally near ones is visible.
-    void see_some(const TriangleBin& bin, std::span<const BinnedTriangle> triangles) {
+    void rasterize_binned(const TriangleBin& bin, std::span<const BinnedTriangle> triangles) {
         small_.set_up(scene_.screen.data(), triangles.data(), triangles.size(), scene_.subpixel_bits);
         for (std::size_t i = 0; i < triangles.size(); ++i) {
             if (small_.is_small[i] != 0) {
-                see_small(i, triangles[i].id);
+                rasterize_small(i, triangles[i].id);
             } else {
-                see_large(corners_of(bin, triangles[i]));
+                rasterize_large(corners_of(bin, triangles[i]));
             }
         }
     }
 
-    void see_small(std::size_t i, std::uint32_t id) {
+    void rasterize_small(std::size_t i, std::uint32_t id) {
         const std::uint32_t covered = small_.covered[i];
-        see_block(i, id, covered & 0xffffu, 0, 0);
+        rasterize_block(i, id, covered & 0xffffu, 0, 0);
         if (covered >> 16 == 0) return;
         const bool is_below = small_.is_tall[i] != 0;
-        see_block(i, id, covered >> 16, is_below ? 0 : 4, is_below ? 4 : 0);
+        rasterize_block(i, id, covered >> 16, is_below ? 0 : 4, is_below ? 4 : 0);
     }
 
     /// A block of four by four pixels that begins at that column and row of the triangle's box.
-    void see_block(std::size_t i, std::uint32_t id, std::uint32_t covered, int right, int below) {
+    void rasterize_block(std::size_t i, std::uint32_t id, std::uint32_t covered, int right, int below) {
         const int x0 = small_.x[i] - visibility_.x0 + right, y0 = small_.y[i] - visibility_.y0 + below;
         const float first = small_.depth[i] + static_cast<float>(right) * small_.to_right[i] +
                             static_cast<float>(below) * small_.down[i];
@@ -212,7 +212,7 @@ class TileRaster {
         }
     }
 
-    void see_large(const RasterTriangle& triangle) {
+    void rasterize_large(const RasterTriangle& triangle) {
         const std::int64_t sixteenth = std::int64_t{1} << (scene_.subpixel_bits - 4);
         for (std::size_t s = 0; s < pattern_.size(); ++s) {
             const auto [sx, sy] = pattern_[s];

@@ -31,7 +31,7 @@ namespace {
 /// A scene and what it was compiled to, from which the next frame takes whatever is unchanged.
 struct Before {
     Scene scene;
-    CompiledScene compiled;
+    RenderScene compiled;
     std::vector<std::vector<std::string>> warnings;  // of the objects' shapes
 };
 
@@ -74,7 +74,7 @@ class Compiler {
     bool has_kept_triangles() const { return before_ != nullptr && kept_ == scene_.objects.size(); }
     std::vector<std::vector<std::string>> take_warnings() { return std::move(warnings_); }
 
-    std::optional<CompiledScene> take(int threads) {
+    std::optional<RenderScene> take(int threads) {
         if (diagnostics_.has_errors()) return std::nullopt;
         with_threads(
             threads,
@@ -105,7 +105,7 @@ class Compiler {
     }
 
     template <class Work>
-    void guarded(const std::string& whose, const SourcePlace& place, Work work) {
+    void guarded(const std::string& whose, const SourceLocation& place, Work work) {
         try {
             work();
         } catch (const Error& problem) {
@@ -133,7 +133,7 @@ class Compiler {
         }
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
             const Object& object = scene_.objects[i];
-            SolidObject& solid = compiled_.objects.emplace_back();
+            RenderObject& solid = compiled_.objects.emplace_back();
             solid.label = object.label;
             if (const Object* const old = object_before(i);
                 old != nullptr && old->color == object.color && old->color_texture == object.color_texture &&
@@ -193,7 +193,7 @@ class Compiler {
     }
 
     void make_environment() {
-        compiled_.environment = Environment(decoded(scene_.image.background, encoding()));
+        compiled_.environment = EnvironmentMap(decoded(scene_.image.background, encoding()));
         if (scene_.image.environment.empty()) return;
         if (before_ != nullptr && before_->scene.image.environment == scene_.image.environment) {
             compiled_.environment = std::move(before_->compiled.environment);
@@ -272,7 +272,7 @@ class Compiler {
         if (old == nullptr || old->shape != object.shape || old->transform != object.transform ||
             old->color != object.color || old->encloses != object.encloses || old->shading != object.shading)
             return false;
-        SolidObject& solid = before_->compiled.objects[i];
+        RenderObject& solid = before_->compiled.objects[i];
         if (solid.mesh.u.empty() == needs.uv || solid.mesh.dpdu.empty() == needs.derivatives) return false;
         compiled_.objects[i].mesh = std::move(solid.mesh);
         compiled_.objects[i].tree = std::move(solid.tree);
@@ -313,13 +313,13 @@ class Compiler {
         return sum;
     }
 
-    static bool needs_tree(const SolidObject& solid) {
+    static bool needs_tree(const RenderObject& solid) {
         return solid.surface.reflection->shows_surroundings() && !solid.tree;
     }
 
     void make_trees() {
-        std::vector<SolidObject*> without;
-        for (SolidObject& solid : compiled_.objects) {
+        std::vector<RenderObject*> without;
+        for (RenderObject& solid : compiled_.objects) {
             if (needs_tree(solid)) without.push_back(&solid);
         }
         parallel_for(without.size(), 1, [&](std::size_t first, std::size_t end) {
@@ -332,7 +332,7 @@ class Compiler {
 
     void finish(std::size_t i) {
         const Object& object = scene_.objects[i];
-        SolidObject& solid = compiled_.objects[i];
+        RenderObject& solid = compiled_.objects[i];
         if (placed_[i]) {
             guarded(object, PluginKind::shading, object.shading.name,
                     [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
@@ -363,7 +363,7 @@ class Compiler {
     std::size_t steps_done_ = 0;
     Before* before_;        // source of everything unchanged; null: nothing is
     std::size_t kept_ = 0;  // objects whose triangles were taken
-    CompiledScene compiled_;
+    RenderScene compiled_;
     std::vector<std::optional<PlacedShape>> placed_;
     std::vector<std::vector<std::string>> warnings_;  // of the objects' shapes
     std::set<std::string> said_;
@@ -372,25 +372,25 @@ class Compiler {
 
 }  // namespace
 
-std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics,
-                                     int threads, const Progress& progress) {
+std::optional<RenderScene> build(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics,
+                                 int threads, const Progress& progress) {
     return Compiler(draft, registry, diagnostics, progress).take(threads);
 }
 
-struct FrameCompiler::Kept {
+struct FrameBuilder::Kept {
     Registry& registry;
     std::optional<Before> before{};
     bool has_kept_triangles = false;
 };
 
-FrameCompiler::FrameCompiler(Registry& registry) : kept_(std::make_unique<Kept>(Kept{registry})) {}
-FrameCompiler::FrameCompiler(FrameCompiler&&) noexcept = default;
-FrameCompiler& FrameCompiler::operator=(FrameCompiler&&) noexcept = default;
-FrameCompiler::~FrameCompiler() = default;
+FrameBuilder::FrameBuilder(Registry& registry) : kept_(std::make_unique<Kept>(Kept{registry})) {}
+FrameBuilder::FrameBuilder(FrameBuilder&&) noexcept = default;
+FrameBuilder& FrameBuilder::operator=(FrameBuilder&&) noexcept = default;
+FrameBuilder::~FrameBuilder() = default;
 
-bool FrameCompiler::has_kept_triangles() const noexcept { return kept_->has_kept_triangles; }
+bool FrameBuilder::has_kept_triangles() const noexcept { return kept_->has_kept_triangles; }
 
-const CompiledScene* FrameCompiler::compile(const SceneDraft& draft, Diagnostics& diagnostics, int threads) {
+const RenderScene* FrameBuilder::build(const SceneDraft& draft, Diagnostics& diagnostics, int threads) {
     // If this one throws, nothing of the previous frame is kept.
     std::optional<Before> before = std::exchange(kept_->before, std::nullopt);
     const Progress silent;
@@ -402,9 +402,9 @@ const CompiledScene* FrameCompiler::compile(const SceneDraft& draft, Diagnostics
     return &kept_->before->compiled;
 }
 
-std::optional<CompiledScene> compile(const Scene& scene, Registry& registry, Diagnostics& diagnostics,
-                                     int threads) {
-    return compile(SceneDraft{.scene = scene}, registry, diagnostics, threads);
+std::optional<RenderScene> build(const Scene& scene, Registry& registry, Diagnostics& diagnostics,
+                                 int threads) {
+    return build(SceneDraft{.scene = scene}, registry, diagnostics, threads);
 }
 
 }  // namespace candela

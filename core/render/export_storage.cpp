@@ -144,7 +144,7 @@ ExportedValues ExportStorage::kept(const ParamSet& values) {
     for (std::size_t i = 0; i < set.schema().size(); ++i)
         written.push_back(set.get(i) ? written_value(*set.get(i), set.schema()[i]) : ParamValue{});
     return {.written = numbers.emplace_back(std::move(written)),
-            .delivered = numbers.emplace_back(set.delivered(scene.image.color_management))};
+            .runtime = numbers.emplace_back(set.runtime(scene.image.color_management))};
 }
 
 bool ExportStorage::has_tables(const PluginDescriptor& plugin) {
@@ -153,15 +153,15 @@ bool ExportStorage::has_tables(const PluginDescriptor& plugin) {
 }
 
 void ExportStorage::put_tables(const PluginDescriptor& plugin, const Instance& instance) {
-    std::vector<ParamValue>& delivered = numbers.back();
-    for (std::size_t i = 0; i < delivered.size(); ++i) {
+    std::vector<ParamValue>& runtime = numbers.back();
+    for (std::size_t i = 0; i < runtime.size(); ++i) {
         if (!is_table(plugin, i)) continue;
         const std::span<const float> table = instance.table(i);
         if (!std::ranges::all_of(table, [](float x) { return std::isfinite(x); }))
             throw Error(ErrorCategory::failure,
                         fmt::format("plugin {}/{}: the table of '{}' has a non-finite number",
                                     name_of(plugin.kind), plugin.name, plugin.parameters[i].name));
-        put_table(table, delivered[i]);
+        put_table(table, runtime[i]);
     }
 }
 

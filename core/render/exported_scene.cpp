@@ -166,9 +166,9 @@ class Exporter {
     void add_data(const Light& from, ExportedLight& to) {
         std::vector<PunctualLight> samples(static_cast<std::size_t>(from.sample_count()));
         for (std::size_t i = 0; i < samples.size(); ++i)
-            if (!from.describe(static_cast<int>(i), samples[i])) return;
+            if (!from.as_punctual(static_cast<int>(i), samples[i])) return;
         Rgb ambient{};
-        if (from.has_ambient() && !from.describe_ambient(ambient)) return;
+        if (from.has_ambient() && !from.as_ambient(ambient)) return;
         to.ambient = ambient;
         to.punctual = to_.punctual.emplace_back(std::move(samples));
         to.is_data = true;

@@ -41,7 +41,7 @@ std::string without_numbers(const std::string& text) {
 }
 
 /// The track that has a key at that position.
-const Track* track_at(const std::optional<Animation>& animation, const SourcePlace& place) {
+const Track* track_at(const std::optional<Animation>& animation, const SourceLocation& place) {
     if (!animation) return nullptr;
     const auto has_it = [&](const Track& track) {
         return std::ranges::find(track.keys, place, &Key::place) != track.keys.end();
@@ -96,12 +96,12 @@ class FrameChecker {
 
 void check_frames(SceneFrames& frames, std::span<const int> numbers, Registry& registry,
                   Diagnostics& diagnostics, int threads, const Progress& progress) {
-    FrameCompiler compiler(registry);
+    FrameBuilder builder(registry);
     FrameChecker checker;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
         Diagnostics found;
         const SceneDraft draft = frames.draft(numbers[i], found);
-        static_cast<void>(compiler.compile(draft, found, threads));
+        static_cast<void>(builder.build(draft, found, threads));
         checker.add(found, numbers[i]);
         if (progress) progress(i + 1, numbers.size());
     }

@@ -9,25 +9,25 @@ module;
 
 export module candela.render:frames;
 
-import :compiled_scene;
+import :render_scene;
 import candela.plugins;
 import candela.scene;
 import candela.util;
 
 export namespace candela {
 
-/// Compiles one frame after the other, like compile(), and carries over to the next whatever has not changed:
+/// Compiles one frame after the other, like build(), and carries over to the next whatever has not changed:
 /// triangles, lights, models, the environment. Constraints are checked again only if something has moved. One
 /// thread at a time.
-class CANDELA_EXPORT FrameCompiler {
+class CANDELA_EXPORT FrameBuilder {
   public:
-    explicit FrameCompiler(Registry& registry);
-    FrameCompiler(FrameCompiler&&) noexcept;
-    FrameCompiler& operator=(FrameCompiler&&) noexcept;
-    ~FrameCompiler();
+    explicit FrameBuilder(Registry& registry);
+    FrameBuilder(FrameBuilder&&) noexcept;
+    FrameBuilder& operator=(FrameBuilder&&) noexcept;
+    ~FrameBuilder();
 
     /// Valid until the next call; null if there were errors. `threads`: as in RenderOptions.
-    const CompiledScene* compile(const SceneDraft& draft, Diagnostics& diagnostics, int threads = 0);
+    const RenderScene* build(const SceneDraft& draft, Diagnostics& diagnostics, int threads = 0);
     /// Whether all triangles are where they were in the previous frame. If not, a Renderer must forget().
     bool has_kept_triangles() const noexcept;
 
@@ -36,7 +36,7 @@ class CANDELA_EXPORT FrameCompiler {
     std::unique_ptr<Kept> kept_;
 };
 
-/// Validates frames like compile(), and reports every problem once: with the number of the first frame that
+/// Validates frames like build(), and reports every problem once: with the number of the first frame that
 /// has it, unless all frames do, and with the track that causes it. `progress` counts frames.
 CANDELA_EXPORT void check_frames(SceneFrames& frames, std::span<const int> numbers, Registry& registry,
                                  Diagnostics& diagnostics, int threads = 0, const Progress& progress = {});

@@ -30,10 +30,10 @@ Camera camera_of(const Observer& unfitted, int width, int height) {
 }
 
 // Projection: vertices onto the screen, triangles clipped and sorted into tiles.
-void project_scene(const CompiledScene& scene, int width, int height, RowRange rows, int tile_size,
-                   int samples, ProjectedScene& projected) {
+void project_scene(const RenderScene& scene, int width, int height, RowRange rows, int tile_size, int samples,
+                   ProjectedScene& projected) {
     std::vector<const Mesh*> meshes;
-    for (const SolidObject& object : scene.objects) meshes.push_back(&object.mesh);
+    for (const RenderObject& object : scene.objects) meshes.push_back(&object.mesh);
     try {
         project(meshes, camera_of(scene.observer, width, height), tile_size, samples, projected,
                 TileRows{rows.first / tile_size, (rows.end + tile_size - 1) / tile_size});
@@ -74,7 +74,7 @@ namespace {
 
 // Shading: at each point of a batch, the shading plugin's normal; then, light by light, the light plugin's
 // intensity and what the reflection plugin reflects of it to the observer (SurfaceShader::shade()).
-void shade_object(const CompiledScene& scene, const FragmentList& fragments, TileShader& shader) {
+void shade_object(const RenderScene& scene, const FragmentList& fragments, TileShader& shader) {
     if (shader.term() == Term::background) return;
     if (is_geometric(shader.term())) return shader.show_geometry(fragments);
     switch (scene.objects[fragments.object].surface.shading->shading_rate()) {
@@ -90,7 +90,7 @@ void shade_object(const CompiledScene& scene, const FragmentList& fragments, Til
 }  // namespace
 
 // From fragments to the film: the background, then object by object.
-void shade_tile(const CompiledScene& scene, const VisibleTile& visible, TileWorker& worker, Film& film) {
+void shade_tile(const RenderScene& scene, const VisibleTile& visible, TileWorker& worker, Film& film) {
     worker.shader.fill_background(visible);
     if (!visible.is_empty) {
         for (const FragmentList& fragments : visible.fragments.lists())

@@ -1,10 +1,10 @@
 // The stages in order: Scene -> meshes -> normals -> visibility -> fragments -> light -> reflection -> Film.
 export module candela.render;
 
-export import :compiled_scene;
+export import :render_scene;
 export import :exported_scene;
 export import :film;
 export import :frames;
-export import :probe;
+export import :pixel_inspector;
 export import :rendered_rows;
 export import :renderer;

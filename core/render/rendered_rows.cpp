@@ -36,7 +36,7 @@ std::span<const T> rows_of(std::span<const T> pixels, int width, int first, int 
 
 }  // namespace
 
-RenderedRows::RenderedRows(const CompiledScene& scene, PixelType pixels, RowRange rows, RenderOptions options)
+RenderedRows::RenderedRows(const RenderScene& scene, PixelType pixels, RowRange rows, RenderOptions options)
     : scene_(scene),
       pixels_(pixels),
       rows_(rows),
@@ -96,8 +96,8 @@ PictureView RenderedRows::next(int count) {
     return result;
 }
 
-std::string RenderedRows::why_black() const {
-    return band_ ? candela::why_black(scene_, *band_, statistics_) : "";
+std::string RenderedRows::darkness_diagnosis() const {
+    return band_ ? candela::darkness_diagnosis(scene_, *band_, statistics_) : "";
 }
 
 }  // namespace candela

@@ -10,7 +10,7 @@ module;
 
 export module candela.render:rendered_rows;
 
-import :compiled_scene;
+import :render_scene;
 import :film;
 import :renderer;
 import candela.api;
@@ -22,20 +22,20 @@ export namespace candela {
 class CANDELA_EXPORT RenderedRows final : public PictureRows {
   public:
     /// The scene must outlive this. `options.progress` counts rows.
-    RenderedRows(const CompiledScene& scene, PixelType pixels, RowRange rows, RenderOptions options);
+    RenderedRows(const RenderScene& scene, PixelType pixels, RowRange rows, RenderOptions options);
     ~RenderedRows() override;
 
     PictureView next(int count) override;
 
     /// Statistics of all rows so far.
     const RenderStatistics& statistics() const noexcept { return statistics_; }
-    /// Returns what candela::why_black() does for all rows.
-    std::string why_black() const;
+    /// Returns what candela::darkness_diagnosis() does for all rows.
+    std::string darkness_diagnosis() const;
 
   private:
     void render_band(int first);
 
-    const CompiledScene& scene_;
+    const RenderScene& scene_;
     PixelType pixels_;
     RowRange rows_;
     RenderOptions options_;

@@ -39,14 +39,14 @@ int tile_size_for(int samples) { return samples <= 4 ? 64 : 32; }
 
 /// The parts of a scene that visibility depends on.
 struct SeenScene {
-    SeenScene(const CompiledScene& scene, const Film& film, const RenderOptions& options)
+    SeenScene(const RenderScene& scene, const Film& film, const RenderOptions& options)
         : observer(scene.observer),
           width(film.width()),
           height(film.height()),
           rows(film.rows()),
           samples(is_geometric(options.term) ? 1 : scene.image.samples),
           tile_size(options.tile_size > 0 ? options.tile_size : tile_size_for(samples)) {
-        for (const SolidObject& object : scene.objects)
+        for (const RenderObject& object : scene.objects)
             meshes.push_back(
                 {object.mesh.position.x.data(), object.mesh.indices.data(), object.mesh.indices.size()});
     }
@@ -69,9 +69,9 @@ struct SeenScene {
 
 /// An estimate of the time that one thread takes to shade a whole picture, from the times per point and
 /// light, and per triangle, on processors of 2020.
-double rough_milliseconds(const CompiledScene& scene, const Film& film) {
+double rough_milliseconds(const RenderScene& scene, const Film& film) {
     double triangles = 0;
-    for (const SolidObject& object : scene.objects)
+    for (const RenderObject& object : scene.objects)
         triangles += static_cast<double>(object.mesh.triangle_count());
     const double points = 1.0 * film.width() * film.rows().count() * scene.image.samples;
     return 5e-6 * points * static_cast<double>(std::max<std::size_t>(scene.lights.size(), 1)) +
@@ -93,7 +93,7 @@ struct Renderer::Kept {
     bool is_first = true;            // whether this is the first picture
 
     /// Runs the stages from projection on, or from shading on if `is_seen`.
-    RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options,
+    RenderStatistics render(const RenderScene& scene, Film& film, const RenderOptions& options,
                             const SeenScene& to_see, bool is_seen) {
         RenderStatistics statistics;
         const auto begin = Clock::now();
@@ -158,7 +158,7 @@ Renderer::~Renderer() = default;
 
 void Renderer::forget() noexcept { kept_->seen.reset(); }
 
-RenderStatistics Renderer::render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
+RenderStatistics Renderer::render(const RenderScene& scene, Film& film, const RenderOptions& options) {
     SeenScene to_see(scene, film, options);
     const bool is_seen = kept_->what == Keep::visibility && kept_->seen == to_see;
     // Until they are complete, the tiles count as empty: something may throw.
@@ -171,7 +171,7 @@ RenderStatistics Renderer::render(const CompiledScene& scene, Film& film, const 
     return statistics;
 }
 
-RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options) {
+RenderStatistics render(const RenderScene& scene, Film& film, const RenderOptions& options) {
     return Renderer().render(scene, film, options);
 }
 

@@ -10,7 +10,7 @@ module;
 
 export module candela.render:renderer;
 
-import :compiled_scene;
+import :render_scene;
 import :film;
 import candela.shading;
 
@@ -38,7 +38,7 @@ struct RenderStatistics {
 };
 
 /// Renders one picture: the same bytes for any number of threads and any tile size. Throws Error.
-CANDELA_EXPORT RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
+CANDELA_EXPORT RenderStatistics render(const RenderScene& scene, Film& film, const RenderOptions& options);
 
 /// Renders a sequence of pictures, each identical to that of candela::render(), and reuses what it can from
 /// one to the next. One thread at a time.
@@ -59,7 +59,7 @@ class CANDELA_EXPORT Renderer {
     /// detected.
     void forget() noexcept;
 
-    RenderStatistics render(const CompiledScene& scene, Film& film, const RenderOptions& options);
+    RenderStatistics render(const RenderScene& scene, Film& film, const RenderOptions& options);
 
   private:
     struct Kept;
@@ -69,7 +69,7 @@ class CANDELA_EXPORT Renderer {
 /// Why a picture shows no light on any object, and what to do, as the end of the sentence "nothing in the
 /// picture is lit: …". Empty if something is lit, or if the scene has no objects or no lights, which was
 /// reported when it was read.
-CANDELA_EXPORT std::string why_black(const CompiledScene& scene, const Film& film,
-                                     const RenderStatistics& statistics);
+CANDELA_EXPORT std::string darkness_diagnosis(const RenderScene& scene, const Film& film,
+                                              const RenderStatistics& statistics);
 
 }  // namespace candela

@@ -80,15 +80,15 @@ Rgb value_of_nothing(Term term) {
 
 TileShader::TileShader() { batch_.resize(k_batch_size); }
 
-void TileShader::begin(const CompiledScene& scene, const ProjectedScene& projected, Term term,
+void TileShader::begin(const RenderScene& scene, const ProjectedScene& projected, Term term,
                        std::optional<std::size_t> light) {
     scene_ = &scene;
     projected_ = &projected;
     term_ = term;
     has_background_ = shows_background(term, light);
-    const std::span<const LitSource> lights = scene.lights;
-    surface_shader_.begin(light ? LitScene{lights.subspan(*light, 1), nullptr, projected.camera}
-                                : LitScene{lights, &scene.environment, projected.camera});
+    const std::span<const RenderLight> lights = scene.lights;
+    surface_shader_.begin(light ? LightingContext{lights.subspan(*light, 1), nullptr, projected.camera}
+                                : LightingContext{lights, &scene.environment, projected.camera});
     points_lit_ = 0;
     brightest_ = 0;
 }
@@ -97,8 +97,7 @@ bool shows_background(Term term, std::optional<std::size_t> light) {
     return term == Term::background || (term == Term::intensity && !light);
 }
 
-std::optional<Rgb> uniform_background(const CompiledScene& scene, Term term,
-                                      std::optional<std::size_t> light) {
+std::optional<Rgb> uniform_background(const RenderScene& scene, Term term, std::optional<std::size_t> light) {
     if (shows_background(term, light))
         return scene.environment.is_uniform() ? std::optional(scene.environment.seen({})) : std::nullopt;
     return value_of_nothing(term);
@@ -155,7 +154,7 @@ ProjectedMesh TileShader::mesh_of(const FragmentList& fragments) const {
 }
 
 void TileShader::shade_points(std::uint32_t object, const Vec3Span& intensity) {
-    const SolidObject& solid = scene_->objects[object];
+    const RenderObject& solid = scene_->objects[object];
     const Interior interior{&solid.mesh, solid.tree ? &*solid.tree : nullptr};
     apply_texture(solid.surface, points_);
     if (term_ == Term::intensity) {

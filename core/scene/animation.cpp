@@ -112,7 +112,7 @@ class AnimationReader {
         for (const Node& node : *all) read_track(*node.table(), node.place);
     }
 
-    void read_track(const TableNode& table, const SourcePlace& place) {
+    void read_track(const TableNode& table, const SourceLocation& place) {
         const TableSchema& schema = inner_schema("track");
         const TableContext context{schema.title, {}, place};
         report_unknown_keys(table, names_in(schema.parameters), context, diagnostics_);
@@ -126,7 +126,7 @@ class AnimationReader {
         }
         if (!has(values, "path")) return;
         const std::string path = text(values, "path");
-        const SourcePlace& path_place = table.find("path")->node.place;
+        const SourceLocation& path_place = table.find("path")->node.place;
         const auto parameter = parameter_at(path, path_place);
         if (!parameter || keys == nullptr) return;
         Track track{.path = path, .type = parameter->type, .keys = {}, .interpolation = Interpolation::step};
@@ -185,7 +185,7 @@ class AnimationReader {
 
     void check_interpolation(const TableNode& table, const Parameter& parameter, const Track& track) {
         const TableNode::Entry* const stated = table.find("interpolation");
-        const SourcePlace& place = stated != nullptr ? stated->node.place : table.find("path")->node.place;
+        const SourceLocation& place = stated != nullptr ? stated->node.place : table.find("path")->node.place;
         if (changes_in_steps_only(parameter)) {
             diagnostics_.error(
                 place, fmt::format("'{}' cannot be interpolated: {}", track.path, constraint_text(parameter)),
@@ -214,7 +214,7 @@ class AnimationReader {
     }
 
     /// Whether a setting or another track overrides the track.
-    bool is_overridden(const std::string& path, const SourcePlace& place) {
+    bool is_overridden(const std::string& path, const SourceLocation& place) {
         const std::vector<std::string> parts = canonical_parts(path, elements_);
         if (const std::string* const other = track_of(parts)) {
             diagnostics_.error(place, fmt::format("another track changes '{}' already", *other),
@@ -244,7 +244,7 @@ class AnimationReader {
 
     /// The parameter at a path. Nothing if there is none, which is reported, or if its plugin is not
     /// installed, which is reported with the table that names it.
-    std::optional<Parameter> parameter_at(const std::string& path, const SourcePlace& place) {
+    std::optional<Parameter> parameter_at(const std::string& path, const SourceLocation& place) {
         const std::vector<std::string> parts = canonical_parts(path, elements_);
         if (!leads_somewhere(path, parts, place)) return std::nullopt;
         const auto schema = std::ranges::find(scene_schema(), parts[0], &TableSchema::name);
@@ -270,7 +270,7 @@ class AnimationReader {
     /// Reports a path that cannot be set, by trying it on a copy of the table that contains it. A copy of the
     /// whole scene for each track would take minutes if there are thousands.
     bool leads_somewhere(const std::string& path, const std::vector<std::string>& parts,
-                         const SourcePlace& place) {
+                         const SourceLocation& place) {
         TableNode scratch;
         if (const TableNode::Entry* const entry = tables_.root().find(parts[0])) {
             const ArrayNode* const all = entry->node.array();
@@ -289,7 +289,8 @@ class AnimationReader {
     }
 
     std::optional<Parameter> parameter_in(const TableSchema& schema, const std::string& path,
-                                          const std::vector<std::string>& parts, const SourcePlace& place) {
+                                          const std::vector<std::string>& parts,
+                                          const SourceLocation& place) {
         const std::size_t own = schema.repeated ? 2 : 1;  // offset of the table's keys in the path
         const TableNode* const table = table_at(parts, schema.repeated);
         std::vector<std::string> known;

@@ -29,7 +29,7 @@ CANDELA_EXPORT std::string_view name_of(Interpolation interpolation) noexcept;
 struct Key {
     double time = 0;  // seconds
     Value value;
-    SourcePlace place{};  // of the value
+    SourceLocation place{};  // of the value
 
     /// Ignores positions in the file.
     friend CANDELA_EXPORT bool operator==(const Key& a, const Key& b);

@@ -45,7 +45,7 @@ struct Observer {
     /// The aspect ratio (width to height) of the frame that every picture shows completely; 0: none, and a
     /// narrow picture crops the sides.
     float frame_aspect = 0;
-    SourcePlace position_place{};
+    SourceLocation position_place{};
 
     /// Ignores positions in the file.
     friend inline bool operator==(const Observer& a, const Observer& b) {
@@ -65,7 +65,7 @@ struct ImageSettings {
     int samples = 1;
     Vec3 background;            // 0-255
     std::string environment{};  // absolute path of an equirectangular environment map; empty: the background
-    SourcePlace environment_place{};
+    SourceLocation environment_place{};
     ColorEncoding color_management = ColorEncoding::srgb;
 
     /// Ignores positions in the file.
@@ -90,8 +90,8 @@ CANDELA_EXPORT std::optional<std::string_view> name_of_label(std::string_view la
 struct LightSource {
     std::string label;  // 'lamp', as the scene's author calls it, or an index
     Model model;
-    SourcePlace place;
-    SourcePlace position_place{};  // of its 'position', or of the whole light
+    SourceLocation place;
+    SourceLocation position_place{};  // of its 'position', or of the whole light
 
     /// Ignores positions in the file.
     friend inline bool operator==(const LightSource& a, const LightSource& b) {
@@ -115,9 +115,9 @@ struct Object {
     bool encloses = false;  // others may be inside; drawn from both sides
     Model shading;
     Model reflection;
-    SourcePlace place;
-    SourcePlace position_place{};  // of its 'position', or of the whole object
-    SourcePlace texture_place{};   // of its 'color_texture', or of the whole object
+    SourceLocation place;
+    SourceLocation position_place{};  // of its 'position', or of the whole object
+    SourceLocation texture_place{};   // of its 'color_texture', or of the whole object
 
     /// Ignores positions in the file.
     friend inline bool operator==(const Object& a, const Object& b) {
@@ -147,7 +147,7 @@ struct SceneDraft {
     bool has_room = true;
     bool has_observer = true;                    // its position is known
     bool is_complete = true;                     // there were no errors
-    SourcePlace picture_place{};                 // of the setting that determines the picture's size
+    SourceLocation picture_place{};              // of the setting that determines the picture's size
     std::vector<std::filesystem::path> files{};  // all files that were read, as absolute paths
 };
 

@@ -36,7 +36,7 @@ class Editor {
         std::vector<std::string> parts = parts_of(setting.path);
         const auto value = parse_value(setting.value, {setting.origin, 0, 0, 0}, diagnostics_);
         if (!value) return;
-        Place place{.table = &document_.root};
+        InsertionPoint place{.table = &document_.root};
         std::size_t next = 0;
         if (parts[0] == "light" || parts[0] == "object") {
             const ArrayNode& all = *document_.root.find(parts[0])->node.array();
@@ -71,7 +71,7 @@ class Editor {
 
   private:
     /// The position of a value, or where it would be inserted.
-    struct Place {
+    struct InsertionPoint {
         const Node* holder = nullptr;      // the table whose lines or braces contain it; null: the document
         const TableNode* table = nullptr;  // null if it is missing
         std::string key{};                 // from the holder on, with a trailing dot
@@ -87,7 +87,7 @@ class Editor {
         return found->second;
     }
 
-    void step(Place& place, const std::string& part) {
+    void step(InsertionPoint& place, const std::string& part) {
         const TableNode::Entry* const entry = place.table->find(part);
         if (entry == nullptr) {
             place.table = nullptr;
@@ -103,7 +103,7 @@ class Editor {
         }
     }
 
-    void write(const Place& place, const std::string& key, const std::string& value) {
+    void write(const InsertionPoint& place, const std::string& key, const std::string& value) {
         const TableNode::Entry* const entry = place.table != nullptr ? place.table->find(key) : nullptr;
         if (entry != nullptr) {
             const std::string& file = entry->node.place.file;

@@ -34,7 +34,7 @@ namespace {
 using Numbers3 = std::array<double, 3>;
 
 /// A value as a node of a file.
-Node node_of(const Value& value, ParamType type, const SourcePlace& place) {
+Node node_of(const Value& value, ParamType type, const SourceLocation& place) {
     const auto list = [&](const auto& numbers) {
         ArrayNode array;
         for (const float x : numbers) {
@@ -114,7 +114,7 @@ TableNode at_frame(const TableNode& root, const Animation& animation, int frame)
     const double time = animation.time_of(frame);
     Diagnostics ignored;  // the paths are known to lead somewhere
     for (const Track& track : animation.tracks) {
-        const SourcePlace& place = key_before(track, time).place;
+        const SourceLocation& place = key_before(track, time).place;
         set_value(result, track.path, node_of(value_at(track, time), track.type, place), place, ignored,
                   &elements);
     }

@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string place_text(const SourcePlace& place) {
+std::string place_text(const SourceLocation& place) {
     return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
 
@@ -69,12 +69,13 @@ class Gatherer {
     Gatherer(fs::path home, const std::map<fs::path, std::string>& unsaved, Diagnostics& diagnostics)
         : home_(std::move(home)), unsaved_(unsaved), diagnostics_(diagnostics) {}
 
-    void add_file(const fs::path& file, const SourcePlace* included_at) {
+    void add_file(const fs::path& file, const SourceLocation* included_at) {
         const std::string shown = file.string();
         const fs::path canonical = canonical_path(file);
         std::error_code problem;
         if (const auto seen = files_.find(canonical); seen != files_.end()) {
-            const SourcePlace place = included_at != nullptr ? *included_at : SourcePlace{shown, 0, 0, 0};
+            const SourceLocation place =
+                included_at != nullptr ? *included_at : SourceLocation{shown, 0, 0, 0};
             diagnostics_.error(
                 place, seen->second ? fmt::format("'{}' includes itself, directly or through others", shown)
                                     : fmt::format("'{}' is read twice", shown));
@@ -123,7 +124,7 @@ class Gatherer {
     /// A scene from elsewhere may include any file that its user can read, and messages may be shown to
     /// others. So messages reveal nothing about the contents of a file outside the scene's folder until it
     /// has turned out to be part of a scene.
-    void add_foreign(const fs::path& file, const std::string& shown, const SourcePlace& place) {
+    void add_foreign(const fs::path& file, const std::string& shown, const SourceLocation& place) {
         Diagnostics found;
         auto table = read_document(file, shown, left_, found);
         if (table && is_part_of_a_scene(*table)) {
@@ -137,7 +138,7 @@ class Gatherer {
             return diagnostics_.failure(
                 place, fmt::format("'{}' cannot be included: {}", shown, problems.front().message));
         }
-        const SourcePlace in_file = problems.empty() ? SourcePlace{} : problems.front().place;
+        const SourceLocation in_file = problems.empty() ? SourceLocation{} : problems.front().place;
         diagnostics_.error(
             place,
             fmt::format("'{}' is not part of a scene{}", shown,
@@ -147,7 +148,7 @@ class Gatherer {
             "it is outside the scene's folder, so its contents are not shown");
     }
 
-    bool may_include(const SourcePlace& place) {
+    bool may_include(const SourceLocation& place) {
         if (depth_ > k_deepest_include) {
             diagnostics_.error(
                 place, fmt::format("files include one another more than {} levels deep", k_deepest_include),
@@ -234,7 +235,7 @@ std::optional<std::size_t> number_from(const std::string& text) {
 
 class Setter {
   public:
-    Setter(std::vector<std::string> parts, const SourcePlace& place, TableNode& root,
+    Setter(std::vector<std::string> parts, const SourceLocation& place, TableNode& root,
            Diagnostics& diagnostics, const ElementIndex* index)
         : parts_(std::move(parts)), place_(place), root_(root), diagnostics_(diagnostics), index_(index) {}
 
@@ -299,7 +300,7 @@ class Setter {
     }
 
     std::vector<std::string> parts_;
-    const SourcePlace& place_;
+    const SourceLocation& place_;
     TableNode& root_;
     Diagnostics& diagnostics_;
     const ElementIndex* index_;
@@ -322,12 +323,12 @@ std::vector<std::string> parts_of(std::string_view path) {
     return parts;
 }
 
-bool set_value(TableNode& root, std::string_view path, Node value, const SourcePlace& place,
+bool set_value(TableNode& root, std::string_view path, Node value, const SourceLocation& place,
                Diagnostics& diagnostics, const ElementIndex* index) {
     return set_value(root, parts_of(path), std::move(value), place, diagnostics, index);
 }
 
-bool set_value(TableNode& root, std::vector<std::string> parts, Node value, const SourcePlace& place,
+bool set_value(TableNode& root, std::vector<std::string> parts, Node value, const SourceLocation& place,
                Diagnostics& diagnostics, const ElementIndex* index) {
     return Setter(std::move(parts), place, root, diagnostics, index).apply(std::move(value));
 }
@@ -408,7 +409,7 @@ std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagn
     if (diagnostics.has_errors()) return std::nullopt;
     ElementIndex index(merged.root);
     for (const Setting& setting : request.settings) {
-        const SourcePlace place{setting.origin, 0, 0, 0};
+        const SourceLocation place{setting.origin, 0, 0, 0};
         if (auto value = parse_value(setting.value, place, diagnostics))
             set_value(merged.root, setting.path, *std::move(value), place, diagnostics, &index);
         if (setting.path.ends_with("name")) index = ElementIndex(merged.root);

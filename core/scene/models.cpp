@@ -120,7 +120,7 @@ Model ModelChooser::shading_for(const TableNode& object) {
 }
 
 Model ModelChooser::reflection_for(const TableNode& object, const std::string& label,
-                                   const SourcePlace& place) {
+                                   const SourceLocation& place) {
     static const TableNode k_empty;
     const TableNode::Entry* const entry = object.find("material");
     if (entry != nullptr && entry->node.table() == nullptr) {

@@ -55,11 +55,11 @@ class Reader {
         read_observer();
         read_image();
         read_constraints();
-        each("light", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
+        each("light", [&](const TableNode& table, const SourceLocation& place, std::size_t i) {
             read_light(table, place, i);
         });
         ModelChooser models(request_, tables_);
-        each("object", [&](const TableNode& table, const SourcePlace& place, std::size_t i) {
+        each("object", [&](const TableNode& table, const SourceLocation& place, std::size_t i) {
             read_object(table, place, i, models);
         });
         warn_if_empty();
@@ -68,8 +68,8 @@ class Reader {
     }
 
   private:
-    static const SourcePlace& place_of(const TableNode& table, std::string_view key,
-                                       const SourcePlace& otherwise) {
+    static const SourceLocation& place_of(const TableNode& table, std::string_view key,
+                                          const SourceLocation& otherwise) {
         const TableNode::Entry* const entry = table.find(key);
         // NOLINTNEXTLINE(bugprone-return-const-ref-from-parameter): callers copy it at once
         return entry != nullptr ? entry->node.place : otherwise;
@@ -130,7 +130,7 @@ class Reader {
     /// Whether the observer's view is well defined.
     void check_view(const TableNode& table) {
         const Observer& observer = scene_.observer;
-        const SourcePlace& look_at = table.find("look_at")->node.place;
+        const SourceLocation& look_at = table.find("look_at")->node.place;
         const Vec3 view = normalized(observer.look_at - observer.position);
         if (view == Vec3{}) {
             diagnostics_.error(look_at, "the observer is at the point it looks at",
@@ -203,7 +203,7 @@ class Reader {
         if (name == nullptr || name->empty()) return fmt::format("number {}", index);
         const auto [before, is_new] = names_.try_emplace(kind + ' ' + *name, entry->node.place);
         if (!is_new) {
-            const SourcePlace& first = before->second;
+            const SourceLocation& first = before->second;
             diagnostics_.error(entry->node.place, fmt::format("another {} is called '{}', at {}:{}:{}", kind,
                                                               *name, first.file, first.line, first.column));
         }
@@ -232,7 +232,7 @@ class Reader {
         return Model{plugin->manifest.name, tables_.read_plugin(table, *plugin, context)};
     }
 
-    void read_light(const TableNode& table, const SourcePlace& place, std::size_t index) {
+    void read_light(const TableNode& table, const SourceLocation& place, std::size_t index) {
         const std::string label = label_of("light", table, index);
         const TableContext context{
             fmt::format("[[light]] {}", short_label(label)), {Help::Topic::plugins_of_kind, "light"}, place};
@@ -245,7 +245,7 @@ class Reader {
             scene_.lights.push_back({label, std::move(*model), place, place_of(table, "position", place)});
     }
 
-    void read_object(const TableNode& table, const SourcePlace& place, std::size_t index,
+    void read_object(const TableNode& table, const SourceLocation& place, std::size_t index,
                      ModelChooser& models) {
         Object object;
         object.label = label_of("object", table, index);
@@ -304,7 +304,7 @@ class Reader {
     const std::vector<std::filesystem::path>& files_;
     SceneDraft draft_;
     Scene& scene_ = draft_.scene;
-    std::map<std::string, SourcePlace> names_;
+    std::map<std::string, SourceLocation> names_;
 };
 
 void add_files(const Model& model, std::vector<std::filesystem::path>& files) {

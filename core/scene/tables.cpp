@@ -98,7 +98,7 @@ bool SceneTables::has_valid(const std::string& name, std::initializer_list<std::
     });
 }
 
-const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, const SourcePlace& place) {
+const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, const SourceLocation& place) {
     if (const PluginFile* const plugin = registry_.find(kind, name)) return plugin;
     try {
         registry_.require(kind, name);

@@ -233,7 +233,7 @@ bool is_written_as_list(const Node& node, const Diagnostics& diagnostics) {
 }
 
 /// Checks that a file exists; returns its absolute path.
-std::optional<std::string> existing_file(const std::string& written, const SourcePlace& place,
+std::optional<std::string> existing_file(const std::string& written, const SourceLocation& place,
                                          Diagnostics& diagnostics) {
     // Paths from the command line (line 0) are relative to the working directory.
     const fs::path base = place.line > 0 ? fs::path(place.file).parent_path() : fs::path();
@@ -356,7 +356,7 @@ void check_relations(const TableNode& table, const ParamSet& values, std::span<c
         if (!wrong) continue;
         const TableNode::Entry* entry = table.find(relation.left);
         if (entry == nullptr) entry = table.find(relation.right);
-        const SourcePlace place = entry != nullptr ? entry->node.place : context.place;
+        const SourceLocation place = entry != nullptr ? entry->node.place : context.place;
         if (relation.only_warns) {
             diagnostics.warning(place, fmt::format("{}: {}", context.where, *wrong));
         } else {

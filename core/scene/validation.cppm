@@ -19,10 +19,10 @@ export namespace candela {
 
 /// A table's place in the scene, for messages.
 struct TableContext {
-    std::string where;   // "[image]", "[[light]] 'lamp'"
-    Help help;           // where its keys are explained
-    SourcePlace place;   // of the table itself, for missing keys
-    std::string note{};  // appended to the message on every unknown key; may be empty
+    std::string where;     // "[image]", "[[light]] 'lamp'"
+    Help help;             // where its keys are explained
+    SourceLocation place;  // of the table itself, for missing keys
+    std::string note{};    // appended to the message on every unknown key; may be empty
     /// The name of an unknown key here, or the table where it belongs; null, or empty if that is unknown.
     std::function<std::string(const std::string& key)> hint{};
     bool lists_keys = false;  // whether the message on an unknown key lists the known ones

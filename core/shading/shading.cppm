@@ -1,7 +1,7 @@
 // Light at surface points: textures, environment, normals, lights, reflection.
 export module candela.shading;
 
-export import :environment;
+export import :environment_map;
 export import :surface;
 export import :surface_shader;
 export import :term;

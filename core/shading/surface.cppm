@@ -8,7 +8,7 @@ module;
 
 export module candela.shading:surface;
 
-import :environment;
+import :environment_map;
 import :texture;
 import candela.api;
 import candela.geometry;
@@ -18,7 +18,7 @@ import candela.scene;
 export namespace candela {
 
 /// A light, and the plugin it comes from.
-struct LitSource {
+struct RenderLight {
     std::string plugin;
     std::unique_ptr<Light> light;
 };
@@ -44,9 +44,9 @@ struct Interior {
 };
 
 /// The lights of a scene, and the view of it.
-struct LitScene {
-    std::span<const LitSource> lights;
-    const Environment* environment = nullptr;  // null: transparent objects show no surroundings
+struct LightingContext {
+    std::span<const RenderLight> lights;
+    const EnvironmentMap* environment = nullptr;  // null: transparent objects show no surroundings
     Camera camera;
 };
 

@@ -22,7 +22,7 @@ module;
 module candela.shading;
 
 import :guarded;
-import :surroundings;
+import :object_environment;
 import candela.api;
 import candela.plugins;
 import candela.raster;
@@ -48,7 +48,7 @@ struct ToObserverLoop {
     }
 };
 
-struct FlipLoop {
+struct FaceForwardLoop {
     CANDELA_BATCH_LOOP static void run(const float* facing, std::size_t count, Vec3Span v) {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
@@ -180,16 +180,16 @@ SurfaceShader::SurfaceShader() {
 
 SurfaceShader::~SurfaceShader() = default;
 
-void SurfaceShader::begin(const LitScene& scene) {
+void SurfaceShader::begin(const LightingContext& scene) {
     scene_ = scene;
     surroundings_.reset();
     lights_.clear();
     other_lights_.clear();
     punctual_lights_.clear();
     lighting_ = {};
-    for (const LitSource& source : scene.lights) {
+    for (const RenderLight& source : scene.lights) {
         lights_.push_back(&source);
-        if (!describe(source)) other_lights_.push_back(&source);
+        if (!add_as_data(source)) other_lights_.push_back(&source);
     }
     lighting_.lights = punctual_lights_;
     const bool is_perspective = scene.camera.projection == Projection::perspective;
@@ -197,14 +197,14 @@ void SurfaceShader::begin(const LitScene& scene) {
     lighting_.w = is_perspective ? 1.0f : 0.0f;
 }
 
-bool SurfaceShader::describe(const LitSource& source) {
+bool SurfaceShader::add_as_data(const RenderLight& source) {
     const std::size_t before = punctual_lights_.size();
     Rgb ambient;
     bool is_data = true;
     guarded(PluginKind::light, source.plugin, [&] {
         for (int sample = 0; is_data && sample < source.light->sample_count(); ++sample)
-            is_data = source.light->describe(sample, punctual_lights_.emplace_back());
-        if (is_data && source.light->has_ambient()) is_data = source.light->describe_ambient(ambient);
+            is_data = source.light->as_punctual(sample, punctual_lights_.emplace_back());
+        if (is_data && source.light->has_ambient()) is_data = source.light->as_ambient(ambient);
     });
     if (is_data) {
         lighting_.ambient = lighting_.ambient + ambient;
@@ -222,7 +222,7 @@ std::array<Vec3Arrays*, 8> SurfaceShader::written_by_plugins() {
 void SurfaceShader::mark_ends() {
     for (Vec3Arrays* const arrays : written_by_plugins()) {
         for (AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
-            fill_with_guard(std::span(*array).subspan(k_batch_size));
+            fill_with_canary(std::span(*array).subspan(k_batch_size));
     }
 }
 
@@ -230,7 +230,7 @@ bool SurfaceShader::are_ends_intact(std::span<Vec3Arrays* const> written) {
     bool intact = true;
     for (const Vec3Arrays* const arrays : written) {
         for (const AlignedVector<float>* const array : {&arrays->x, &arrays->y, &arrays->z})
-            intact &= is_guard_intact(std::span(*array).subspan<k_batch_size, k_guard_size>());
+            intact &= is_canary_intact(std::span(*array).subspan<k_batch_size, k_guard_size>());
     }
     return intact;
 }
@@ -253,7 +253,8 @@ void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, st
 void SurfaceShader::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
     guarded(PluginKind::shading, surface.shading_plugin,
             [&] { shading_normals(surface, points, normal_.span()); });
-    if (points.any_from_behind) multiversion<FlipLoop>(points.facing.data(), points.filled, normal_.span());
+    if (points.any_from_behind)
+        multiversion<FaceForwardLoop>(points.facing.data(), points.filled, normal_.span());
 }
 
 float SurfaceShader::shade(const SurfaceModels& surface, const Interior& interior,
@@ -267,32 +268,32 @@ float SurfaceShader::shade(const SurfaceModels& surface, const Interior& interio
     Vec3Arrays* const in_one_go[] = {&normal_, &reflected_};
     const std::array all = written_by_plugins();
     std::span<Vec3Arrays* const> written = all;
-    if (!reflect_punctual(surface, points)) {
-        add_up(surface, interior, points, lights_, Scrutiny::none);
+    if (!reflect_all_lights(surface, points)) {
+        add_up(surface, interior, points, lights_, Checking::none);
         largest = add<3>({ambient, diffuse, specular}, count, intensity);
     } else if (other_lights_.empty()) {
         largest = add<1>({reflected}, count, intensity);
         written = in_one_go;
     } else {
-        add_up(surface, interior, points, other_lights_, Scrutiny::none);
+        add_up(surface, interior, points, other_lights_, Checking::none);
         largest = add<4>({reflected, ambient, diffuse, specular}, count, intensity);
     }
-    if (!std::isfinite(largest) || !are_ends_intact(written)) scrutinize(surface, interior, points);
+    if (!std::isfinite(largest) || !are_ends_intact(written)) check_steps(surface, interior, points);
     return largest;
 }
 
-void SurfaceShader::scrutinize(const SurfaceModels& surface, const Interior& interior,
-                               const SurfacePoints& points) {
+void SurfaceShader::check_steps(const SurfaceModels& surface, const Interior& interior,
+                                const SurfacePoints& points) {
     mark_ends();
     find_normals(surface, points);
     const std::size_t count = lit_of(surface, points);
     require_sound(PluginKind::shading, surface.shading_plugin, count, {&normal_});
-    add_up(surface, interior, points, lights_, Scrutiny::each_step);
-    if (reflect_punctual(surface, points))
+    add_up(surface, interior, points, lights_, Checking::each_step);
+    if (reflect_all_lights(surface, points))
         require_sound(PluginKind::reflection, surface.reflection_plugin, count, {&reflected_});
 }
 
-bool SurfaceShader::reflect_punctual(const SurfaceModels& surface, const SurfacePoints& points) {
+bool SurfaceShader::reflect_all_lights(const SurfaceModels& surface, const SurfacePoints& points) {
     if (other_lights_.size() == lights_.size() || surface.reflection->shows_surroundings()) return false;
     const std::size_t count = lit_of(surface, points);
     find_tangents(surface, points, count);
@@ -300,7 +301,7 @@ bool SurfaceShader::reflect_punctual(const SurfaceModels& surface, const Surface
     batch.to_observer = {};
     bool is_done = false;
     guarded(PluginKind::reflection, surface.reflection_plugin,
-            [&] { is_done = surface.reflection->reflect_punctual(batch, lighting_, reflected_.span()); });
+            [&] { is_done = surface.reflection->reflect_all_lights(batch, lighting_, reflected_.span()); });
     return is_done;
 }
 
@@ -324,11 +325,11 @@ SurfaceBatch SurfaceShader::lit_surface(const SurfaceModels& surface, const Surf
 }
 
 void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interior,
-                           const SurfacePoints& points, const Lights& lights, Scrutiny scrutiny) {
+                           const SurfacePoints& points, const Lights& lights, Checking checking) {
     const std::size_t count = lit_of(surface, points);
     const auto look_at = [&](PluginKind kind, const std::string& plugin,
                              std::initializer_list<const Vec3Arrays*> results) {
-        if (scrutiny == Scrutiny::each_step) require_sound(kind, plugin, count, results);
+        if (checking == Checking::each_step) require_sound(kind, plugin, count, results);
     };
     multiversion<ToObserverLoop>(scene_.camera, points.position.span(), count, to_observer_.span());
     find_tangents(surface, points, count);
@@ -338,8 +339,8 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
     for (const Vec3Span& sum : {reflected.ambient, reflected.diffuse, reflected.specular}) clear(sum, count);
 
-    for (const LitSource* const light : lights) {
-        const LitSource& source = *light;
+    for (const RenderLight* const light : lights) {
+        const RenderLight& source = *light;
         for (int sample = 0; sample < source.light->sample_count(); ++sample) {
             guarded(PluginKind::light, source.plugin, [&] {
                 source.light->illuminate(sample, receivers,
@@ -363,10 +364,10 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
     }
     if (surface.reflection->shows_surroundings() && scene_.environment != nullptr) {
         if (surroundings_ == nullptr)
-            surroundings_ = std::make_unique<ObjectSurroundings>(*scene_.environment);
+            surroundings_ = std::make_unique<ObjectEnvironment>(*scene_.environment);
         surroundings_->set_object(surface, interior);
         guarded(PluginKind::reflection, surface.reflection_plugin,
-                [&] { surface.reflection->show_surroundings(batch, *surroundings_, reflected); });
+                [&] { surface.reflection->show_environment(batch, *surroundings_, reflected); });
         look_at(PluginKind::reflection, surface.reflection_plugin, {&specular_});
     }
 }

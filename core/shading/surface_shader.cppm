@@ -23,7 +23,7 @@ import candela.raster;
 import candela.util;
 
 namespace candela {
-class ObjectSurroundings;
+class ObjectEnvironment;
 }
 
 export namespace candela {
@@ -39,7 +39,7 @@ class CANDELA_EXPORT SurfaceShader {
     ~SurfaceShader();
 
     /// Sets the scene for the following calls.
-    void begin(const LitScene& scene);
+    void begin(const LightingContext& scene);
 
     /// Writes the intensity that `points` send to the observer, I_a + the sum of I_d + I_s over the lights
     /// (CA DD6), into arrays with room for `points.filled`. Returns the largest intensity. Throws Error,
@@ -58,19 +58,19 @@ class CANDELA_EXPORT SurfaceShader {
 
   private:
     /// Whether each plugin's results are checked right after its call, instead of once at the end.
-    enum class Scrutiny : bool { none, each_step };
-    using Lights = std::vector<const LitSource*>;
+    enum class Checking : bool { none, each_step };
+    using Lights = std::vector<const RenderLight*>;
     /// Adds up, part by part, what the reflection model reflects of each of `lights`.
     void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
-                const Lights& lights, Scrutiny scrutiny);
+                const Lights& lights, Checking checking);
     /// Adds the light to those that are data, or returns false if it cannot describe itself as such.
-    bool describe(const LitSource& source);
+    bool add_as_data(const RenderLight& source);
     void find_tangents(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count);
     /// Writes to `reflected_` what the reflection model reflects of all lights that are data. Returns false
     /// if there are no such lights or the model cannot evaluate them.
-    bool reflect_punctual(const SurfaceModels& surface, const SurfacePoints& points);
+    bool reflect_all_lights(const SurfaceModels& surface, const SurfacePoints& points);
     void find_n_dot_l(const SurfacePoints& points, const Vec3Span& values);
-    void scrutinize(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
+    void check_steps(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
     /// The reflection model's input; the arrays are this object's and the points'.
     SurfaceBatch lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
                              std::size_t count) const;
@@ -81,11 +81,11 @@ class CANDELA_EXPORT SurfaceShader {
     void require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
                        std::initializer_list<const Vec3Arrays*> results);
 
-    LitScene scene_;
+    LightingContext scene_;
     Lights lights_, other_lights_;  // all, and those that are not data
     std::vector<PunctualLight> punctual_lights_;
-    PunctualLighting lighting_;                         // refers to them
-    std::unique_ptr<ObjectSurroundings> surroundings_;  // created when a model asks
+    PunctualLighting lighting_;                        // refers to them
+    std::unique_ptr<ObjectEnvironment> surroundings_;  // created when a model asks
     Vec3Arrays normal_, to_observer_, tangent_;
     Vec3Arrays to_light_, light_diffuse_, light_specular_;
     Vec3Arrays ambient_, diffuse_, specular_;

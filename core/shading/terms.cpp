@@ -33,13 +33,13 @@ void SurfaceShader::find_term(Term term, const SurfaceModels& surface, const Int
         case Term::ambient:
         case Term::diffuse:
         case Term::specular:
-            add_up(surface, interior, points, lights_, Scrutiny::none);
+            add_up(surface, interior, points, lights_, Checking::none);
             return copy(term == Term::ambient   ? ambient_
                         : term == Term::diffuse ? diffuse_
                                                 : specular_,
                         points.count, values);
         case Term::surroundings:
-            add_up(surface, interior, points, {}, Scrutiny::none);
+            add_up(surface, interior, points, {}, Checking::none);
             return copy(specular_, points.count, values);
         case Term::n_dot_l:
             return find_n_dot_l(points, values);
@@ -56,7 +56,7 @@ void SurfaceShader::find_n_dot_l(const SurfacePoints& points, const Vec3Span& va
     const ConstVec3Span normal = std::as_const(normal_).span(), to_light = std::as_const(to_light_).span();
     int samples = 0;
     std::fill_n(values.x, points.count, 0.0f);
-    for (const LitSource* const source : lights_) {
+    for (const RenderLight* const source : lights_) {
         for (int sample = 0; sample < source->light->sample_count(); ++sample, ++samples) {
             guarded(PluginKind::light, source->plugin, [&] {
                 source->light->illuminate(sample, receivers,

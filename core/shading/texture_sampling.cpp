@@ -24,7 +24,7 @@ constexpr std::size_t k_block = 256;
 
 /// The position of points in one of the levels: the texel to the upper left, the offset to its neighbours,
 /// and the weights of all four, two per number, the upper ones in its lower half.
-struct Places {
+struct TexelFootprints {
     alignas(64) std::array<std::int32_t, k_block> texel, right, below, left_weights, right_weights;
 };
 
@@ -108,7 +108,7 @@ CANDELA_KERNEL_INLINE std::int32_t weight_of_level(std::int32_t coarser_weight) 
 template <int coarser>
 struct InteriorLoop {
     CANDELA_BATCH_LOOP static void run(MipMap::Level level, const Points* points, std::size_t count,
-                                       Places* places, std::int32_t* border) {
+                                       TexelFootprints* places, std::int32_t* border) {
         const float *const u = points->u.data(), *const v = points->v.data();
         const std::int32_t* const weight = points->coarser_weight.data();
         std::int32_t* const texel = places->texel.data();
@@ -134,9 +134,9 @@ struct InteriorLoop {
 
 /// Like the above, for points of any levels, anywhere.
 template <int coarser>
-struct PlacesLoop {
+struct FootprintLoop {
     CANDELA_BATCH_LOOP static void run(const std::int32_t* sizes, bool repeats, const Points* points,
-                                       int last, std::size_t count, Places* places) {
+                                       int last, std::size_t count, TexelFootprints* places) {
         const float *const u = points->u.data(), *const v = points->v.data();
         const std::int32_t *const level = points->finer.data(), *const weight = points->coarser_weight.data();
         std::int32_t* const texel = places->texel.data();
@@ -181,7 +181,7 @@ template <bool is_interior>
 struct LevelTexels {
     const std::uint16_t* texels;
     std::ptrdiff_t stride;
-    const Places* places;
+    const TexelFootprints* places;
 
     [[gnu::always_inline]] const std::uint16_t* upper(std::size_t i) const {
         return texels + 4 * static_cast<std::ptrdiff_t>(places->texel[i]);
@@ -317,7 +317,7 @@ void MipMap::multiply(TextureWrap wrap, std::size_t count, const TextureCoordina
     const bool repeats = wrap == TextureWrap::repeat;
     const int last = static_cast<int>(levels_.size()) - 1;
     Points points;
-    Places finer, coarser;
+    TexelFootprints finer, coarser;
     std::int32_t coarser_weights = 0, border = 0;
     std::int32_t *const between = &coarser_weights, *const is_at_border = &border;
     const Points* const found = &points;
@@ -341,9 +341,9 @@ void MipMap::multiply(TextureWrap wrap, std::size_t count, const TextureCoordina
             is_interior = border == 0;
         }
         if (!is_interior) {
-            multiversion<PlacesLoop<0>>(sizes_.data(), repeats, found, last, filled, &finer);
+            multiversion<FootprintLoop<0>>(sizes_.data(), repeats, found, last, filled, &finer);
             if (between_levels)
-                multiversion<PlacesLoop<1>>(sizes_.data(), repeats, found, last, filled, &coarser);
+                multiversion<FootprintLoop<1>>(sizes_.data(), repeats, found, last, filled, &coarser);
         }
         const auto multiply_by = [&]<bool is_between, bool inside>() {
             multiversion<MultiplyByHand<is_between, inside>>(

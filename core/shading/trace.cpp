@@ -9,7 +9,7 @@ module;
 module candela.shading;
 
 import :guarded;
-import :surroundings;
+import :object_environment;
 import :trace;
 import candela.api;
 import candela.plugins;
@@ -30,7 +30,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
     Vec3Arrays intensity;
     intensity.resize(k_batch_size);
     shade(surface, interior, points, intensity.span());
-    add_up(surface, interior, points, lights_, Scrutiny::none);
+    add_up(surface, interior, points, lights_, Checking::none);
     PointNeeds needs = surface.needs();
     needs.triangle &= surface.shading->shading_rate() != ShadingRate::vertex;
     const bool needs_tangent = surface.reflection->needs_tangent();
@@ -74,7 +74,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
         trace.lights.push_back(light);
     };
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-        const LitSource& source = scene_.lights[i];
+        const RenderLight& source = scene_.lights[i];
         for (int sample = 0; sample < source.light->sample_count(); ++sample) {
             clear();
             guarded(PluginKind::light, source.plugin, [&] {
@@ -103,7 +103,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
     if (surface.reflection->shows_surroundings()) {
         clear();
         guarded(PluginKind::reflection, surface.reflection_plugin,
-                [&] { surface.reflection->show_surroundings(batch, *surroundings_, reflected); });
+                [&] { surface.reflection->show_environment(batch, *surroundings_, reflected); });
         trace.surroundings = first_of(specular_);
     }
     return trace;

@@ -34,19 +34,19 @@ Error::Error(ErrorCategory category, const std::string& message, Help help)
     : std::runtime_error(message), category_(category), help_(std::move(help)) {}
 Error::~Error() = default;
 
-void Diagnostics::error(SourcePlace place, std::string message, std::string hint, Help help) {
+void Diagnostics::error(SourceLocation place, std::string message, std::string hint, Help help) {
     all_.push_back({Severity::error, std::move(place), std::move(message), std::move(hint), std::move(help)});
     worst_ = ErrorCategory::invalid_scene;
     ++errors_;
 }
 
-void Diagnostics::failure(SourcePlace place, std::string message, std::string hint, Help help) {
+void Diagnostics::failure(SourceLocation place, std::string message, std::string hint, Help help) {
     all_.push_back({Severity::error, std::move(place), std::move(message), std::move(hint), std::move(help)});
     if (!worst_) worst_ = ErrorCategory::failure;
     ++errors_;
 }
 
-void Diagnostics::warning(SourcePlace place, std::string message, std::string hint, Help help) {
+void Diagnostics::warning(SourceLocation place, std::string message, std::string hint, Help help) {
     all_.push_back(
         {Severity::warning, std::move(place), std::move(message), std::move(hint), std::move(help)});
 }
@@ -64,7 +64,7 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
     std::vector<Rank> ranks;
     ranks.reserve(all_.size());
     for (std::size_t i = 0; i < all_.size(); ++i) {
-        const SourcePlace& place = all_[i].place;
+        const SourceLocation& place = all_[i].place;
         const auto known = file_ranks.find(place.file);
         ranks.emplace_back(known != file_ranks.end() ? known->second : files_.size(), place.line,
                            place.column, i);
@@ -76,7 +76,7 @@ std::vector<Diagnostic> Diagnostics::sorted() const {
     return result;
 }
 
-std::optional<std::string> Diagnostics::source_line(const SourcePlace& place) const {
+std::optional<std::string> Diagnostics::source_line(const SourceLocation& place) const {
     const auto found = sources_.find(place.file);
     if (found == sources_.end() || place.line < 1) return std::nullopt;
     const std::string_view text = found->second.text;

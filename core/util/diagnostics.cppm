@@ -56,18 +56,18 @@ class CANDELA_EXPORT Error : public std::runtime_error {
 enum class Severity : int { warning, error };
 
 /// Lines and columns count from 1; line 0 means the file as a whole.
-struct SourcePlace {
+struct SourceLocation {
     std::string file;
     int line = 0;
     int column = 0;
     int length = 0;  // characters to underline; 0: unknown
 
-    friend bool operator==(const SourcePlace&, const SourcePlace&) = default;
+    friend bool operator==(const SourceLocation&, const SourceLocation&) = default;
 };
 
 struct Diagnostic {
     Severity severity = Severity::error;
-    SourcePlace place;
+    SourceLocation place;
     std::string message;
     std::string hint;  // what to do about it; may be empty
     Help help{};
@@ -77,10 +77,10 @@ struct Diagnostic {
 class CANDELA_EXPORT Diagnostics {
   public:
     /// The scene is wrong.
-    void error(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
+    void error(SourceLocation place, std::string message, std::string hint = {}, Help help = {});
     /// Something that the scene needs fails: an unreadable file, a plugin. Counts as an error.
-    void failure(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
-    void warning(SourcePlace place, std::string message, std::string hint = {}, Help help = {});
+    void failure(SourceLocation place, std::string message, std::string hint = {}, Help help = {});
+    void warning(SourceLocation place, std::string message, std::string hint = {}, Help help = {});
 
     /// Keeps a file's text, so that the offending line can be shown.
     void remember_source(const std::string& file, std::string text);
@@ -92,7 +92,7 @@ class CANDELA_EXPORT Diagnostics {
     /// Sorted by file (in the order in which the files were read), line and column.
     std::vector<Diagnostic> sorted() const;
     /// Line `place.line` of a remembered file, if it has one.
-    std::optional<std::string> source_line(const SourcePlace& place) const;
+    std::optional<std::string> source_line(const SourceLocation& place) const;
 
   private:
     /// A file's text, and the offset of every so many lines, so that no line has to be searched for from the

@@ -149,14 +149,14 @@ void call(const candela::Light& light, Work& work) {
     if (light.has_ambient()) light.illuminate_ambient(receivers, first.span());
 }
 
-class SameEverywhere final : public candela::Surroundings {
+class SameEverywhere final : public candela::Environment {
   public:
     void look(std::size_t count, const candela::ConstVec3Span&, const candela::Vec3Span& intensity) override {
         for (std::size_t i = 0; i < count; ++i) intensity.set(i, {1, 1, 1});
     }
     float max_intensity() const noexcept override { return 1; }
-    void leave(std::size_t count, const candela::ConstVec3Span& origin,
-               const candela::ConstVec3Span& direction, const candela::ExitBatch& exit) override {
+    void trace_exit(std::size_t count, const candela::ConstVec3Span& origin,
+                    const candela::ConstVec3Span& direction, const candela::ExitBatch& exit) override {
         for (std::size_t i = 0; i < count; ++i) {
             exit.position.set(i, origin[i] + direction[i]);
             exit.normal.set(i, direction[i]);
@@ -186,11 +186,11 @@ void call(const candela::ReflectionModel& model, Work& work) {
         const candela::PunctualLight lamp{.position = {2, 3, 4}, .diffuse = {1, 1, 1}, .specular = {1, 1, 1}};
         const candela::PunctualLighting lighting{
             .observer = {0, 0, 5}, .ambient = {0.1f, 0.1f, 0.1f}, .lights = {&lamp, 1}};
-        model.reflect_punctual(surface, lighting, work.results[0].span());
+        model.reflect_all_lights(surface, lighting, work.results[0].span());
     }
     if (model.shows_surroundings()) {
-        SameEverywhere surroundings;
-        model.show_surroundings(surface, surroundings, reflected);
+        SameEverywhere environment;
+        model.show_environment(surface, environment, reflected);
     }
 }
 

@@ -38,7 +38,7 @@ struct Trial {
 };
 
 bool is_compared(const Call& call) {
-    return call.name != "show_surroundings" && call.name != "reflect_punctual";
+    return call.name != "show_environment" && call.name != "reflect_all_lights";
 }
 
 std::vector<Trial> trials_of(std::size_t points) {

@@ -19,7 +19,7 @@ using candela::Vec3;
 
 Arrays::Arrays(std::size_t arrays, std::size_t count, std::size_t shift)
     : count_(count), shift_(shift), data_(arrays, std::vector<float>(2 * k_guard + count + shift)) {
-    for (std::vector<float>& array : data_) candela::fill_with_guard(array);
+    for (std::vector<float>& array : data_) candela::fill_with_canary(array);
     fill(0);
 }
 
@@ -27,8 +27,8 @@ void Arrays::fill(float value) {
     for (std::size_t a = 0; a < arrays(); ++a) std::fill_n((*this)[a], count_, value);
 }
 
-void Arrays::fill_with_guard() {
-    for (std::size_t a = 0; a < arrays(); ++a) candela::fill_with_guard({(*this)[a], count_});
+void Arrays::fill_with_canary() {
+    for (std::size_t a = 0; a < arrays(); ++a) candela::fill_with_canary({(*this)[a], count_});
 }
 
 Arrays Arrays::fenced(Fence fence, const std::function<std::string(std::size_t)>& name) const {
@@ -48,8 +48,8 @@ Arrays Arrays::part(std::size_t first, std::size_t count, std::size_t shift) con
 
 std::string Arrays::trespass() const {
     for (const std::span<const float> array : data_) {
-        if (!candela::is_guard_intact(array.first(k_guard + shift_))) return "before";
-        if (!candela::is_guard_intact(array.subspan(k_guard + shift_ + count_))) return "after";
+        if (!candela::is_canary_intact(array.first(k_guard + shift_))) return "before";
+        if (!candela::is_canary_intact(array.subspan(k_guard + shift_ + count_))) return "after";
     }
     return {};
 }
@@ -68,15 +68,15 @@ namespace {
 
 /// Another colour in every direction, and an object of no particular shape: where a ray leaves it depends on
 /// that ray alone.
-class ColorfulSurroundings final : public candela::Surroundings {
+class ColorfulEnvironment final : public candela::Environment {
   public:
     void look(std::size_t count, const candela::ConstVec3Span& towards,
               const candela::Vec3Span& intensity) override {
         for (std::size_t i = 0; i < count; ++i) intensity.set(i, Vec3{0.5f, 0.5f, 0.5f} + 0.5f * towards[i]);
     }
     float max_intensity() const noexcept override { return 1; }
-    void leave(std::size_t count, const candela::ConstVec3Span& origin,
-               const candela::ConstVec3Span& direction, const candela::ExitBatch& exit) override {
+    void trace_exit(std::size_t count, const candela::ConstVec3Span& origin,
+                    const candela::ConstVec3Span& direction, const candela::ExitBatch& exit) override {
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 d = direction[i];
             exit.position.set(i, origin[i] + d);
@@ -90,7 +90,7 @@ bool can_reflect_punctual(const candela::ReflectionModel& model, candela::Surfac
     if (model.shows_surroundings()) return false;
     point.to_observer = {};
     Vec3 intensity;
-    return model.reflect_punctual(point, punctual_lighting(), {&intensity.x, &intensity.y, &intensity.z});
+    return model.reflect_all_lights(point, punctual_lighting(), {&intensity.x, &intensity.y, &intensity.z});
 }
 
 /// Without `color`, each point has its own.
@@ -128,23 +128,22 @@ BatchSubject reflection_subject(const Values& values, std::optional<candela::Rgb
               model->reflect_ambient(surface(count, in), in.vec3(k_diffuse), reflected(out));
           }}}};
     if (can_reflect_punctual(*model, surface(1, inputs_for(1)))) {
-        subject.calls.push_back({"reflect_punctual",
+        subject.calls.push_back({"reflect_all_lights",
                                  {"intensity"},
                                  false,
                                  declares("may-be-negative"),
                                  [=](std::size_t count, const Arrays& in, Arrays& out) {
                                      candela::SurfaceBatch points = surface(count, in);
                                      points.to_observer = {};
-                                     model->reflect_punctual(points, punctual_lighting(), out.vec3(0));
+                                     model->reflect_all_lights(points, punctual_lighting(), out.vec3(0));
                                  }});
     }
     if (model->shows_surroundings()) {
-        subject.calls.push_back({"show_surroundings", outputs, true, false,
-                                 [=](std::size_t count, const Arrays& in, Arrays& out) {
-                                     ColorfulSurroundings surroundings;
-                                     model->show_surroundings(surface(count, in), surroundings,
-                                                              reflected(out));
-                                 }});
+        subject.calls.push_back(
+            {"show_environment", outputs, true, false, [=](std::size_t count, const Arrays& in, Arrays& out) {
+                 ColorfulEnvironment environment;
+                 model->show_environment(surface(count, in), environment, reflected(out));
+             }});
     }
     return subject;
 }
@@ -359,7 +358,7 @@ Arrays turned(const Arrays& in) {
 
 Arrays outputs_of(const Call& call, const Arrays& in, std::size_t shift) {
     Arrays out(3 * call.outputs.size(), in.count(), shift);
-    if (!call.adds) out.fill_with_guard();
+    if (!call.adds) out.fill_with_canary();
     call.run(in.count(), in, out);
     return out;
 }

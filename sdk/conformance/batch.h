@@ -43,8 +43,8 @@ class Arrays {
     /// names an array in messages about a call that trespasses (fence.h).
     Arrays fenced(Fence fence, const std::function<std::string(std::size_t array)>& name) const;
     /// Fills the arrays with canaries, which only writing removes; is_written() looks for them.
-    void fill_with_guard();
-    bool is_written(std::size_t array, std::size_t i) const { return !candela::is_guard((*this)[array][i]); }
+    void fill_with_canary();
+    bool is_written(std::size_t array, std::size_t i) const { return !candela::is_canary((*this)[array][i]); }
     /// Elements [first, first + count) of all arrays.
     Arrays part(std::size_t first, std::size_t count, std::size_t shift = 0) const;
     /// "before" or "after" if the room there was written to, otherwise empty. For arrays without a fence.

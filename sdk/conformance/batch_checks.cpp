@@ -213,7 +213,7 @@ TEST_CASE("frame: in a rotated world, a surface looks the same", "[reflection][s
         for (const Call& call : batch_subject(values).calls) {
             // The kit's surroundings have another colour in every direction, and its lamps stay where they
             // are.
-            if (call.name == "show_surroundings" || call.name == "reflect_punctual") continue;
+            if (call.name == "show_environment" || call.name == "reflect_all_lights") continue;
             const Arrays out = outputs_of(call, in), out_turned = outputs_of(call, in_turned);
             std::size_t differing = 0, first = 0;
             for (std::size_t i = 0; i < in.count(); ++i) {

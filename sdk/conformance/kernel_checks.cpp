@@ -128,7 +128,7 @@ TEST_CASE("kernel as C++: the text compiles, and computes the same numbers as th
         for (const Call& call : batch_subject(values).calls) {
             // The visible surroundings, and the effect of many lights, are computed from several functions,
             // and a large source by its samples.
-            if (call.name == "show_surroundings" || call.name == "reflect_punctual" || ++calls > 4) continue;
+            if (call.name == "show_environment" || call.name == "reflect_all_lights" || ++calls > 4) continue;
             compare(program, call, values);
         }
     }

@@ -181,9 +181,9 @@ std::string lines_of(const std::string& log, const std::function<bool(const std:
     return result;
 }
 
-std::vector<float> delivered(const Values& values) {
+std::vector<float> runtime(const Values& values) {
     std::vector<float> slots;
-    const auto all = values.set.delivered(candela::ColorEncoding::none);
+    const auto all = values.set.runtime(candela::ColorEncoding::none);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const ParamType type = subject_manifest().parameters[i].type;
         const bool is_whole =
@@ -232,7 +232,7 @@ TemporaryDirectory::~TemporaryDirectory() {
 }
 
 KernelInputs kernel_inputs(const Values& values) {
-    KernelInputs inputs{.parameters = delivered(values), .tables = {}};
+    KernelInputs inputs{.parameters = runtime(values), .tables = {}};
     const auto instance = instance_of(values);
     for (std::size_t i = 0; i < subject_manifest().parameters.size(); ++i) {
         const std::span<const float> table = instance->table(i);

@@ -235,7 +235,7 @@ TEST_CASE("data: the light's description of itself as data matches what it sends
     for (const Values& values : many_values()) {
         const auto light = make<candela::Light>(values);
         candela::Rgb ambient;
-        if (light->has_ambient() && light->describe_ambient(ambient)) {
+        if (light->has_ambient() && light->as_ambient(ambient)) {
             Arrays out(3, in.count());
             light->illuminate_ambient({.count = in.count(),
                                        .position = std::as_const(in).vec3(inputs::k_position),
@@ -252,7 +252,7 @@ TEST_CASE("data: the light's description of itself as data matches what it sends
         }
         for (int sample = 0; sample < std::min(light->sample_count(), 8); ++sample) {
             candela::PunctualLight data;
-            if (!light->describe(sample, data)) break;
+            if (!light->as_punctual(sample, data)) break;
             compare_with_data(*light, sample, data, in, values);
         }
     }

@@ -85,10 +85,10 @@ TEST_CASE(
     const candela::PluginDescriptor& plugin = subject();
     const std::size_t before = threads_of_this_process();
     for (const Values& values : many_values()) {
-        const auto delivered = values.set.delivered(candela::ColorEncoding::none);
+        const auto runtime = values.set.runtime(candela::ColorEncoding::none);
         std::unique_ptr<candela::Instance> instance;
         try {
-            instance.reset(plugin.create(delivered));
+            instance.reset(plugin.create(runtime));
         } catch (const std::exception& problem) {
             FAIL("create() threw '" << problem.what() << "' with " << values.text);
         } catch (...) {
@@ -99,9 +99,9 @@ TEST_CASE(
     // The first ones may have filled tables that all share.
     constexpr std::size_t k_instances = 64, k_negligible = 4096;
     const Values defaults = default_values();
-    const auto delivered = defaults.set.delivered(candela::ColorEncoding::none);
+    const auto runtime = defaults.set.runtime(candela::ColorEncoding::none);
     const std::size_t memory_before = bytes_in_use();
-    for (std::size_t i = 0; i < k_instances; ++i) delete plugin.create(delivered);
+    for (std::size_t i = 0; i < k_instances; ++i) delete plugin.create(runtime);
     const std::size_t memory_after = bytes_in_use();
     if (memory_after > memory_before + k_instances * k_negligible)
         FAIL("each deleted instance leaks " << (memory_after - memory_before) / k_instances / 1024

@@ -303,8 +303,8 @@ TEST_CASE("in one go: a model reflects many lights like their sum one by one", "
     const Arrays in = inputs_for(500, 31);
     for (const Values& values : many_values(10)) {
         const BatchSubject subject = batch_subject(values);
-        const auto call = std::ranges::find(subject.calls, "reflect_punctual", &Call::name);
-        if (call == subject.calls.end()) SKIP("it has no reflect_punctual()");
+        const auto call = std::ranges::find(subject.calls, "reflect_all_lights", &Call::name);
+        if (call == subject.calls.end()) SKIP("it has no reflect_all_lights()");
         const Arrays out = outputs_of(*call, in);
         // Sharp highlights and models with steps are sensitive even to rounding of directions.
         constexpr float k_rounding = 1e-6f;
@@ -322,7 +322,7 @@ TEST_CASE("in one go: a model reflects many lights like their sum one by one", "
             }
             const float rounding = high - low + 1e-5f * high + 1e-6f;
             if (!(got >= low - rounding && got <= high + rounding))
-                FAIL("reflect_punctual returns "
+                FAIL("reflect_all_lights returns "
                      << got << " for three lights and ambient light; one by one they "
                      << "are " << largest(sums[0][i]) << ", for " << text_of_input(in, i) << ", with "
                      << values.text);
@@ -359,17 +359,17 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("surroundings: with one intensity from everywhere, no more than that is visible in the object",
+TEST_CASE("environment: with one intensity from everywhere, no more than that is visible in the object",
           "[reflection]") {
-    class Furnace final : public candela::Surroundings {
+    class Furnace final : public candela::Environment {
       public:
         void look(std::size_t count, const candela::ConstVec3Span&,
                   const candela::Vec3Span& intensity) override {
             for (std::size_t i = 0; i < count; ++i) intensity.set(i, {1, 1, 1});
         }
         float max_intensity() const noexcept override { return 1; }
-        void leave(std::size_t count, const candela::ConstVec3Span& origin,
-                   const candela::ConstVec3Span& direction, const candela::ExitBatch& exit) override {
+        void trace_exit(std::size_t count, const candela::ConstVec3Span& origin,
+                        const candela::ConstVec3Span& direction, const candela::ExitBatch& exit) override {
             for (std::size_t i = 0; i < count; ++i) {
                 exit.position.set(i, origin[i]);
                 exit.normal.set(i, direction[i]);
@@ -379,11 +379,11 @@ TEST_CASE("surroundings: with one intensity from everywhere, no more than that i
     };
     for (const Values& values : many_values()) {
         const auto model = make<ReflectionModel>(values);
-        if (!model->shows_surroundings()) SKIP("it does not show its surroundings");
+        if (!model->shows_surroundings()) SKIP("it does not show its environment");
         const Arrays in = inputs_for(1000);
         Arrays out(9, in.count());
         Furnace furnace;
-        model->show_surroundings(
+        model->show_environment(
             {.count = in.count(),
              .normal = in.vec3(0),
              .to_observer = in.vec3(3),

@@ -81,7 +81,7 @@ std::vector<Vec3> Facets::vertex_normals(const ShadingModel& model) const {
     Arrays normals(3, count);
     std::vector<std::uint32_t> group(count);
     std::iota(group.begin(), group.end(), 0u);
-    normals.fill_with_guard();
+    normals.fill_with_canary();
     model.vertex_normals({.position = points.vec3(0),
                           .indices = indices,
                           .face_normal = faces.vec3(0),

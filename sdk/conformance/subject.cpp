@@ -195,8 +195,8 @@ Values named(candela::ParamSet set) {
 template <class Interface>
 std::unique_ptr<Interface> made(const Values& values) {
     if (needs_a_file()) SKIP("it needs a file that only a user has; --set NAME=FILE provides one");
-    const auto delivered = values.set.delivered(candela::ColorEncoding::none);
-    std::unique_ptr<candela::Instance> instance(subject().create(delivered));
+    const auto runtime = values.set.runtime(candela::ColorEncoding::none);
+    std::unique_ptr<candela::Instance> instance(subject().create(runtime));
     if (instance == nullptr) FAIL("create() returned nothing with " << values.text);
     auto* const typed = dynamic_cast<Interface*>(instance.get());
     if (typed == nullptr) FAIL("create() returned an object without the interface of its kind");

@@ -68,7 +68,7 @@ void Checker::resolve(TypeName& type) const {
                                   : meant)};
 }
 
-void Checker::require_new_name(const std::string& name, Place place) {
+void Checker::require_new_name(const std::string& name, TextPosition place) {
     if (builtin_type(name) || std::ranges::any_of(declared_.structures, [&](const Structure& structure) {
             return structure.name == name;
         }))
@@ -128,7 +128,7 @@ void Checker::function(Function& function) {
     close_scope();
     if (is_reachable_) {
         // An answer is only a body, so the missing return is reported at its end.
-        const Place at = function.body.empty() ? function.end : function.body.back().place;
+        const TextPosition at = function.body.empty() ? function.end : function.body.back().place;
         throw Refusal{at, fmt::format("{}() has a path to its end that returns nothing", function.name)};
     }
     function.steps = steps_;
@@ -139,7 +139,7 @@ void Checker::function(Function& function) {
         function.name, Declared::Callable{{std::move(arguments), function.result.type}, steps_, size_});
 }
 
-void Checker::see(const std::string& name, Place place, Seen seen, bool is_assigned) {
+void Checker::see(const std::string& name, TextPosition place, Seen seen, bool is_assigned) {
     if (builtin_type(name) || std::ranges::any_of(declared_.structures, [&](const Structure& structure) {
             return structure.name == name;
         }))
@@ -161,7 +161,7 @@ void Checker::close_scope() {
     scopes_.pop_back();
 }
 
-void Checker::count(std::uint64_t steps, std::uint64_t size, Place place) {
+void Checker::count(std::uint64_t steps, std::uint64_t size, TextPosition place) {
     steps_ += steps;
     size_ += size;
     if (steps_ > k_most_steps)

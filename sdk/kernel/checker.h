@@ -47,16 +47,16 @@ class Checker {
     void structure(Structure& structure);
     void constant(Constant& constant);
     void function(Function& function);
-    void require_new_name(const std::string& name, Place place);
+    void require_new_name(const std::string& name, TextPosition place);
     void resolve(TypeName& type) const;
     std::string text_of(Type type) const;
     std::uint64_t numbers_in(Type type) const;
     std::vector<std::string> known_types() const;
-    void see(const std::string& name, Place place, Seen seen, bool is_assigned);
+    void see(const std::string& name, TextPosition place, Seen seen, bool is_assigned);
     const std::size_t* seen_as(std::string_view name) const;
     void open_scope() { scopes_.emplace_back(); }
     void close_scope();
-    void count(std::uint64_t steps, std::uint64_t size, Place place);
+    void count(std::uint64_t steps, std::uint64_t size, TextPosition place);
 
     // checker_statements.cpp
     void statements(std::vector<Statement>& all);
@@ -86,7 +86,7 @@ class Checker {
     bool is_constant(const Expression& expression) const;
 
     Declared declared_;
-    std::map<std::string, Place, std::less<>> functions_to_come_;
+    std::map<std::string, TextPosition, std::less<>> functions_to_come_;
     Type result_{};
     std::string function_;  // the function being checked
     std::vector<Seen> seen_;

@@ -117,13 +117,13 @@ class Emitter {
         if (guarded_) out_ += fmt::format("#line {} \"{}\"\n", line, safe_name(kernel_.sources[source].name));
     }
 
-    std::size_t line_of(Place place) const {
+    std::size_t line_of(TextPosition place) const {
         const std::vector<std::size_t>& begins = line_begins_[place.source];
         return static_cast<std::size_t>(std::ranges::upper_bound(begins, place.offset) - begins.begin());
     }
 
     /// Advances to a position, if that is further on.
-    void at(Place place) {
+    void at(TextPosition place) {
         if (place.source != source_) return;
         const std::size_t line = line_of(place);
         const std::size_t column = place.offset - line_begins_[source_][line - 1];
@@ -151,12 +151,12 @@ class Emitter {
         column_ += text.size();
     }
 
-    void put(Place place, std::string_view text) {
+    void put(TextPosition place, std::string_view text) {
         at(place);
         put(text);
     }
 
-    void name(Place place, const std::string& text) {
+    void name(TextPosition place, const std::string& text) {
         names_.insert(text);
         put(place, text);
     }

@@ -113,7 +113,7 @@ class Parser {
 
     /// Parses statements in braces whose opening brace has been read. Returns the position of the closing
     /// one.
-    Place statements_until(const Token& open, std::vector<Statement>& statements) {
+    TextPosition statements_until(const Token& open, std::vector<Statement>& statements) {
         const TokenReader::Level level(tokens_);
         while (!tokens_.is("}")) {
             if (tokens_.at_end()) TokenReader::refuse(open, "this '{' is not closed");
@@ -165,7 +165,7 @@ class Parser {
 
     /// "const float a = 1.0f, b = 2.0f;", as one statement per name.
     void declare(std::vector<Statement>& to) {
-        const Place place = tokens_.peek().place;
+        const TextPosition place = tokens_.peek().place;
         const bool is_constant = tokens_.skip("const");
         const TypeName its_type = type();
         do {

@@ -78,7 +78,7 @@ void TokenReader::refuse_next(const std::string& expected) const {
         const std::string_view last = tokens_[at_ - 1].text;
         // Both are views of one text.
         if (std::find(last.end(), token.text.begin(), '\n') != token.text.begin()) {
-            Place end = tokens_[at_ - 1].place;
+            TextPosition end = tokens_[at_ - 1].place;
             end.offset += static_cast<std::uint32_t>(last.size());
             throw Refusal{end, message};
         }

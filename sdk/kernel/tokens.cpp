@@ -44,7 +44,7 @@ class Lexer {
         throw Refusal{place(at), std::move(message)};
     }
 
-    Place place(std::size_t at) const { return {static_cast<std::uint32_t>(at), source_}; }
+    TextPosition place(std::size_t at) const { return {static_cast<std::uint32_t>(at), source_}; }
 
     char peek(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
 

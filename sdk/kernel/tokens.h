@@ -14,12 +14,12 @@ struct Token {
     enum class Kind : std::uint8_t { name, integer, real, sign, end };
     Kind kind = Kind::end;
     std::string_view text;
-    Place place{};
+    TextPosition place{};
 };
 
 /// A problem at a position; becomes a Problem where the texts are known.
 struct Refusal {
-    Place place;
+    TextPosition place;
     std::string message;
 };
 

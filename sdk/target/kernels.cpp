@@ -169,7 +169,7 @@ std::string struct_text(const ExportedModel& model, const ExportedValues& values
     const PluginDescriptor& plugin = *model.plugin;
     std::vector<std::string> members;
     for (const std::size_t i : plugin.kernel.members)
-        members.push_back(member_text(plugin.parameters[i], values.delivered[i]));
+        members.push_back(member_text(plugin.parameters[i], values.runtime[i]));
     return prepared(model, fmt::format("{}{{{}}}", plugin.kernel.parameters, fmt::join(members, ", ")));
 }
 

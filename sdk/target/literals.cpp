@@ -36,31 +36,32 @@ std::string vec3_text(Vec3 v) {
     return fmt::format("vec3({}, {}, {})", float_text(v.x), float_text(v.y), float_text(v.z));
 }
 
-std::array<Vec3, 3> columns_of(const ParamValue& delivered) {
-    const float* const m = delivered.number;
+std::array<Vec3, 3> columns_of(const ParamValue& runtime) {
+    const float* const m = runtime.number;
     return {{{m[0], m[3], m[6]}, {m[1], m[4], m[7]}, {m[2], m[5], m[8]}}};
 }
 
-std::string member_text(const ParamSpec& parameter, const ParamValue& delivered) {
+std::string member_text(const ParamSpec& parameter, const ParamValue& runtime) {
     switch (parameter.type) {
         case ParamType::real:
-            return float_text(delivered.number[0]);
+            return float_text(runtime.number[0]);
         case ParamType::choice:
-            return fmt::format("{} /* {} */", delivered.integer,
-                               tame(parameter.choices[static_cast<std::size_t>(delivered.integer)]));
+            return fmt::format(
+                "{} /* {} */", runtime.integer,
+                ascii_identifier(parameter.choices[static_cast<std::size_t>(runtime.integer)]));
         case ParamType::integer:
         case ParamType::boolean:
-            return fmt::format("{}", delivered.integer);
+            return fmt::format("{}", runtime.integer);
         case ParamType::matrix: {
-            const auto columns = columns_of(delivered);
+            const auto columns = columns_of(runtime);
             return fmt::format("mat3({}, {}, {})", vec3_text(columns[0]), vec3_text(columns[1]),
                                vec3_text(columns[2]));
         }
         case ParamType::file:
         case ParamType::numbers:
-            return fmt::format("Table{{{}, {}}}", delivered.integer, delivered.list.size());
+            return fmt::format("Table{{{}, {}}}", runtime.integer, runtime.list.size());
         default:
-            return vec3_text({delivered.number[0], delivered.number[1], delivered.number[2]});
+            return vec3_text({runtime.number[0], runtime.number[1], runtime.number[2]});
     }
 }
 

@@ -23,8 +23,8 @@ Vector unit(const Vector& a) {
 const ParamValue* value_named(const ExportedModel& model, const ExportedValues& values,
                               std::string_view parameter, ParamType type) {
     const auto& parameters = model.plugin->parameters;
-    for (std::size_t i = 0; i < parameters.size() && i < values.delivered.size(); ++i)
-        if (parameter == parameters[i].name && parameters[i].type == type) return &values.delivered[i];
+    for (std::size_t i = 0; i < parameters.size() && i < values.runtime.size(); ++i)
+        if (parameter == parameters[i].name && parameters[i].type == type) return &values.runtime[i];
     return nullptr;
 }
 

@@ -67,7 +67,7 @@ std::string texture_file(std::size_t number) { return fmt::format("texture_{}.pp
 
 std::string title_of(const ExportedTexture& texture) {
     const std::string_view file = texture.file;
-    return tame(file.substr(file.find_last_of('/') + 1));
+    return ascii_identifier(file.substr(file.find_last_of('/') + 1));
 }
 
 std::string_view texture_kernel() { return candela_target_texture_kernel; }

@@ -35,7 +35,7 @@ void set(float (&to)[3], candela::Vec3 from) {
 
 candela::ParamValue value_of(const candela::ParamSet& set, const char* name,
                              candela::ColorEncoding encoding) {
-    return set.delivered(encoding).at(set.index_of(name));
+    return set.runtime(encoding).at(set.index_of(name));
 }
 
 int run(const std::string& scene_file, const std::string& out_file) {
@@ -44,7 +44,7 @@ int run(const std::string& scene_file, const std::string& out_file) {
     candela::SceneRequest request;
     if (scene_file != "-") request.files = {scene_file};
     const auto scene = candela::read_scene(request, registry, diagnostics);
-    const auto compiled = scene ? candela::compile(*scene, registry, diagnostics) : std::nullopt;
+    const auto compiled = scene ? candela::build(*scene, registry, diagnostics) : std::nullopt;
     std::cerr << diagnostics_text(diagnostics, false);
     if (!compiled) return 1;
     const candela::ColorEncoding encoding = scene->image.color_management;

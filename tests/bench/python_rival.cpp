@@ -88,7 +88,7 @@ int render(const std::string& file) {
     candela::SceneRequest request;
     request.files = {file};
     const auto draft = candela::draft_scene(request, registry, diagnostics);
-    const auto compiled = draft ? candela::compile(*draft, registry, diagnostics) : std::nullopt;
+    const auto compiled = draft ? candela::build(*draft, registry, diagnostics) : std::nullopt;
     if (!compiled) return 1;
     on_demand([&] {
         const candela::ImageSettings& image = compiled->image;

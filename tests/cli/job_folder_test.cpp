@@ -29,8 +29,8 @@ const fs::path k_job = "frames/.candela/jobs/%04d.png";
 const Words k_submit = {"submit", "scene.toml", "-o", "frames/%04d.png", "--chunk", "2", "--jobs", "1"};
 
 /// A folder with a scene of two frames, and another folder that no command may touch.
-struct Place {
-    Place() : directory(scratch_directory()), victims(directory / "victims") {
+struct JobWorkspace {
+    JobWorkspace() : directory(scratch_directory()), victims(directory / "victims") {
         write_file(directory / "scene.toml", box_scene(20, 12) + "[animation]\nframes = 2\nfps = 12\n");
         write_file(victim(), k_content);
     }
@@ -82,7 +82,7 @@ TEST_CASE("links in place of a job's files and frames are replaced, never follow
         k_job / "plan.json", k_job / "tasks",   k_job / "0..1.json", k_job / "finish.json",
         k_job / "1.log",     "frames/0000.png", "frames/0001.png",   "frames/.candela/0000.png"};
     for (const bool is_dangling : {false, true}) {
-        const Place place;
+        const JobWorkspace place;
         for (const fs::path& name : names)
             place.put_link(name, is_dangling ? place.victims / "new" : place.victim());
         const CommandResult result = place.candela(k_submit);
@@ -97,7 +97,7 @@ TEST_CASE("links in place of a job's files and frames are replaced, never follow
 
 TEST_CASE(
     "hard links in place of a job's files and frames are removed, and their other names are untouched") {
-    const Place place;
+    const JobWorkspace place;
     for (const fs::path& name : {k_job / "plan.json", k_job / "0..1.json", fs::path("frames/0000.png"),
                                  fs::path("frames/.candela/0000.png")}) {
         fs::create_directories((place.directory / name).parent_path());
@@ -108,7 +108,7 @@ TEST_CASE(
 }
 
 TEST_CASE("links in place of Slurm's scripts are replaced, never followed") {
-    const Place place;
+    const JobWorkspace place;
     for (const char* const name : {"tasks", "tasks.sh", "finish.sh"})
         place.put_link(k_job / name, place.victim());
     write_file(place.directory / "bin/sbatch", "#!/bin/sh\necho 1\n");
@@ -124,7 +124,7 @@ TEST_CASE("links in place of Slurm's scripts are replaced, never followed") {
 }
 
 TEST_CASE("a link in place of a frame is replaced, even if its target is the right picture") {
-    const Place place;
+    const JobWorkspace place;
     REQUIRE(place.candela({"animate", "scene.toml"}).exit_code == 0);
     const fs::path frame = place.directory / "frames/0001.png";
     fs::rename(frame, place.directory / "elsewhere.png");
@@ -135,7 +135,7 @@ TEST_CASE("a link in place of a frame is replaced, even if its target is the rig
 
 TEST_CASE("links in place of a picture's parts are replaced, never followed") {
     for (const bool is_dangling : {false, true}) {
-        const Place place;
+        const JobWorkspace place;
         const std::vector<fs::path> names = {"p.tif.parts/picture.json", "p.tif.parts/1-of-2.pixels",
                                              "p.tif.parts/.candela/1-of-2.pixels", ".candela/p.tif"};
         for (const fs::path& name : names)
@@ -154,20 +154,20 @@ TEST_CASE("links in place of a picture's parts are replaced, never followed") {
 TEST_CASE("links in place of a job's or a picture's folders are refused by name") {
     for (const char* const name :
          {"frames/.candela", "frames/.candela/jobs", "frames/.candela/jobs/%04d.png"}) {
-        const Place place;
+        const JobWorkspace place;
         place.put_link(name, place.victims);
         check_refused(place.candela(k_submit), 1,
                       "'" + std::string(name) + "' cannot be created: a link or a file is in its place");
         place.check_victims();
     }
     for (const char* const name : {"p.tif.parts", "p.tif.parts/.candela"}) {
-        const Place place;
+        const JobWorkspace place;
         place.put_link(name, place.victims);
         check_refused(place.candela({"render", "scene.toml", "-o", "p.tif", "--part", "1/2"}), 1,
                       "'" + std::string(name) + "' cannot be created");
         place.check_victims();
     }
-    const Place place;
+    const JobWorkspace place;
     place.put_link("frames/.candela", place.victims);
     check_refused(place.candela({"animate", "scene.toml"}), 1, "'frames/.candela' cannot be created");
     place.check_victims();
@@ -176,12 +176,12 @@ TEST_CASE("links in place of a job's or a picture's folders are refused by name"
 TEST_CASE("pipes in place of a job's files are refused without waiting for them") {
     const std::vector<fs::path> names = {k_job / "plan.json", "frames/0001.png", "frames/.candela/0000.png"};
     for (const fs::path& name : names) {
-        const Place place;
+        const JobWorkspace place;
         put_pipe(place.directory / name);
         check_refused(place.candela(k_submit), 1, "is a pipe, a socket or a device");
         CHECK(fs::is_fifo(place.directory / name));
     }
-    const Place place;
+    const JobWorkspace place;
     REQUIRE(place.candela(k_submit).exit_code == 0);
     fs::remove(place.directory / "frames/0000.png");
     for (const char* const name : {"0..1.json", "1.log"}) {
@@ -195,7 +195,7 @@ TEST_CASE("pipes in place of a job's files are refused without waiting for them"
 }
 
 TEST_CASE("endless files in a job's folder take neither memory nor time") {
-    const Place place;
+    const JobWorkspace place;
     REQUIRE(place.candela(k_submit).exit_code == 0);
     const fs::path job = place.directory / k_job;
     fs::remove(place.directory / "frames/0000.png");
@@ -221,7 +221,7 @@ TEST_CASE("endless files in a job's folder take neither memory nor time") {
 }
 
 TEST_CASE("a folder in place of a task's journal ends the job with an error, not a signal") {
-    const Place place;
+    const JobWorkspace place;
     fs::create_directories(place.directory / k_job / "0..1.json");
     write_file(place.directory / k_job / "0..1.json" / "file", "");  // an empty folder is replaced
     const CommandResult result = place.candela(k_submit);
@@ -231,7 +231,7 @@ TEST_CASE("a folder in place of a task's journal ends the job with an error, not
 }
 
 TEST_CASE("a journal's claim that its task runs is believed only if its process can exist now") {
-    const Place place;
+    const JobWorkspace place;
     REQUIRE(place.candela({"submit", "scene.toml", "--engine", "print", "--chunk", "2"}).exit_code == 0);
     const fs::path file = place.directory / k_job / "0..1.json";
     const auto running = [&] {
@@ -283,7 +283,7 @@ TEST_CASE("a journal's claim that its task runs is believed only if its process 
 }
 
 TEST_CASE("a plan whose tasks name files elsewhere is invalid") {
-    const Place place;
+    const JobWorkspace place;
     REQUIRE(place.candela(k_submit).exit_code == 0);
     json plan = json::parse(read_file(place.directory / k_job / "plan.json"));
     plan["tasks"][0]["name"] = "../../../victims/victim";
@@ -292,7 +292,7 @@ TEST_CASE("a plan whose tasks name files elsewhere is invalid") {
 }
 
 TEST_CASE("names that job scripts cannot hold are refused by every engine before anything is written") {
-    const Place place;
+    const JobWorkspace place;
     struct Case {
         std::string folder;
         const char* reason;
@@ -335,7 +335,7 @@ TEST_CASE("names that job scripts cannot hold are refused by every engine before
 }
 
 TEST_CASE("names that are special to a shell or sbatch are quoted in scripts and command lines") {
-    const Place place;
+    const JobWorkspace place;
     for (const char* const name :
          {"$(touch t)", "`touch t`", "a'b", "; touch t", "# x", "-x", "100%", "~", "ü"}) {
         INFO(name);
@@ -361,7 +361,7 @@ TEST_CASE("names that are special to a shell or sbatch are quoted in scripts and
 }
 
 TEST_CASE("submit, told to end, lets its tasks clean up while ffmpeg works") {
-    const Place place;
+    const JobWorkspace place;
     const fs::path bin = place.directory / "bin", begun = place.directory / "begun";
     write_file(bin / "ffmpeg", "#!/bin/sh\nfor last; do :; done\necho part >\"$last\"\necho $$ >'" +
                                    begun.string() + ".new'\nmv '" + begun.string() + ".new' '" +
@@ -402,7 +402,7 @@ TEST_CASE("temporary folders are private whatever the umask, and the results are
 }
 
 TEST_CASE("a link in place of a folder in a report is refused, and nothing is moved", "[programs]") {
-    const Place place;
+    const JobWorkspace place;
     place.put_link("report/cpp", place.victims);
     check_refused(place.candela({"verify", "scene.toml", "--target", "cpp", "--report", "report"}), 1,
                   "'report/cpp' cannot be created: a link or a file is in its place");
@@ -411,7 +411,7 @@ TEST_CASE("a link in place of a folder in a report is refused, and nothing is mo
 }
 
 TEST_CASE("status shows the other jobs of a folder with a broken one") {
-    const Place place;
+    const JobWorkspace place;
     REQUIRE(place.candela(k_submit).exit_code == 0);
     write_file(place.directory / "frames/.candela/jobs/a.png/plan.json", "[]");
     put_pipe(place.directory / "frames/.candela/jobs/z.png");
@@ -423,7 +423,7 @@ TEST_CASE("status shows the other jobs of a folder with a broken one") {
 }
 
 TEST_CASE("a link in place of a term's picture is replaced, and one named by -o is followed") {
-    const Place place;
+    const JobWorkspace place;
     place.put_link("p.diffuse.png", place.victim());
     place.put_link("p.png", place.directory / "elsewhere.png");
     const CommandResult result =
@@ -436,7 +436,7 @@ TEST_CASE("a link in place of a term's picture is replaced, and one named by -o 
 }
 
 TEST_CASE("a link is followed if the user named it, and refused if its name is the default") {
-    const Place place;
+    const JobWorkspace place;
     struct Case {
         Words words;
         const char* name;
@@ -466,7 +466,7 @@ TEST_CASE("a link is followed if the user named it, and refused if its name is t
 }
 
 TEST_CASE("a film whose name is that of a directory is an error that says so") {
-    const Place place;
+    const JobWorkspace place;
     write_file(place.directory / "bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho film >\"$last\"\n");
     fs::permissions(place.directory / "bin/ffmpeg", fs::perms::owner_all);
     fs::create_directories(place.directory / "film.mp4");
@@ -476,7 +476,7 @@ TEST_CASE("a film whose name is that of a directory is an error that says so") {
 }
 
 TEST_CASE("a picture drawn by another program is not written through a link") {
-    const Place place;
+    const JobWorkspace place;
     write_file(place.directory / "bin/povray",
                "#!/bin/sh\nfor word; do case $word in +O*) echo drawn >\"${word#+O}\";; esac; done\n");
     fs::permissions(place.directory / "bin/povray", fs::perms::owner_all);

@@ -61,7 +61,7 @@ bool is_harmless(std::string_view text) {
     return candela::printable(text, candela::LineBreaks::kept) == text;
 }
 
-void check_place(const candela::Diagnostics& diagnostics, const candela::SourcePlace& place) {
+void check_place(const candela::Diagnostics& diagnostics, const candela::SourceLocation& place) {
     require(place.line >= 0 && place.column >= 0 && place.length >= 0, "a place is negative");
     if (place.line == 0 || !diagnostics.source_line({place.file, 1, 1, 0})) return;
     const auto line = diagnostics.source_line(place);

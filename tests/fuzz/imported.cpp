@@ -43,7 +43,7 @@ void check_import(const fs::path& model) {
     check_diagnostics(diagnostics, scene.has_value());
     if (scene) {
         check_finite(*scene);
-        const bool is_compiled = candela::compile(*scene, test_registry(), diagnostics).has_value();
+        const bool is_compiled = candela::build(*scene, test_registry(), diagnostics).has_value();
         check_diagnostics(diagnostics, is_compiled);
     }
     // (An unreadable picture is a failure; only the file's own text is checked.)

@@ -19,7 +19,7 @@ void use(const candela::Manifest& manifest) {
         static_cast<void>(candela::validation_error(relation, values));
     }
     try {
-        const auto delivered = values.delivered(candela::ColorEncoding::srgb);
+        const auto delivered = values.runtime(candela::ColorEncoding::srgb);
         for (std::size_t i = 0; i < delivered.size(); ++i) {
             for (const float number : delivered[i].number)
                 fuzz::require(std::isfinite(number), "a default is not finite");

@@ -148,7 +148,7 @@ void ask_geometry(const candela::Mesh& mesh) {
     static_cast<void>(overlap(body, body));
 }
 
-void add_lights(candela::CompiledScene& scene) {
+void add_lights(candela::RenderScene& scene) {
     using candela::Light;
     const auto add = [&](const char* name, Given given) {
         scene.lights.push_back({name, instance<Light>(name, given)});
@@ -159,7 +159,7 @@ void add_lights(candela::CompiledScene& scene) {
     add("spot", {{"position", Vec3{0, 4, 0}}, {"direction", Vec3{0, -1, 0}}});
 }
 
-void render_small(candela::CompiledScene& scene, Bytes& bytes) {
+void render_small(candela::RenderScene& scene, Bytes& bytes) {
     constexpr std::array k_samples = {1, 4, 8, 16};
     scene.image = {.width = 40, .height = 24, .samples = k_samples[bytes.at_most(3)], .background = {}};
     const auto pixels = static_cast<candela::PixelType>(bytes.at_most(1));
@@ -178,9 +178,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Bytes bytes(data, size);
     const char* const shading = k_shadings[bytes.at_most(2)];
     const char* const reflection = k_reflections[bytes.at_most(3)];
-    candela::CompiledScene scene;
+    candela::RenderScene scene;
     scene.observer = observer_from(bytes);
-    candela::SolidObject object{.label = "1", .mesh = {}, .surface = {}};
+    candela::RenderObject object{.label = "1", .mesh = {}, .surface = {}};
     object.surface = {.color = {0.5f, 0.5f, 0.5f},
                       .shading_plugin = shading,
                       .shading = instance<candela::ShadingModel>(shading),

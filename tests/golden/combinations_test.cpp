@@ -20,7 +20,7 @@ struct Rendered {
 Rendered render_file(const std::filesystem::path& file) {
     candela::SceneRequest request;
     request.files = {file};
-    const candela::CompiledScene scene = compiled(request).scene;
+    const candela::RenderScene scene = compiled(request).scene;
     candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real,
                        candela::ColorEncoding::srgb);
     const auto statistics = candela::render(scene, film, {.threads = 2});

@@ -70,7 +70,7 @@ class Fixture {
     }
 
   private:
-    candela::CompiledScene scene_;
+    candela::RenderScene scene_;
 };
 
 }  // namespace
@@ -90,7 +90,7 @@ TEST_CASE("a picture does not depend on the number of threads or the size of the
 }
 
 TEST_CASE("a face whose rows span several batches is the same in tiles of any size") {
-    const candela::CompiledScene scene = compiled(R"(version = 1
+    const candela::RenderScene scene = compiled(R"(version = 1
 shading = { model = "phong" }
 reflection = { model = "phong" }
 [image]
@@ -107,7 +107,7 @@ position = [0.2, 0.1, 0.9]
 type = "cube"
 scale = [9, 9, 0.1]
 )")
-                                             .scene;
+                                           .scene;
     const auto picture = [&](int tile_size) {
         candela::Film film(1000, 6, candela::PixelType::real, candela::ColorEncoding::srgb);
         CHECK(candela::render(scene, film, {.threads = 1, .tile_size = tile_size}).pixels_shaded == 6000);

@@ -10,7 +10,7 @@
 
 namespace {
 
-std::vector<float> rendered(const candela::CompiledScene& scene) {
+std::vector<float> rendered(const candela::RenderScene& scene) {
     candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real,
                        candela::ColorEncoding::none);
     candela::render(scene, film, {.threads = 2});
@@ -40,7 +40,7 @@ color = [255, 255, 255]
 )";
 
 /// A picture whose red, green and blue are a direction's components along +x, +y and +z, mapped to 0 to 1.
-candela::Environment compass() {
+candela::EnvironmentMap compass() {
     constexpr int k_width = 1024, k_height = 512;
     std::vector<float> intensity;
     for (int row = 0; row < k_height; ++row) {
@@ -58,7 +58,7 @@ candela::Environment compass() {
 }  // namespace
 
 TEST_CASE("a glass ball shows the world upside down, by Snell's law and Fresnel's equations") {
-    candela::CompiledScene scene =
+    candela::RenderScene scene =
         compiled(std::string(k_ball) + "[object.material]\ninternal_reflections = 0\n").scene;
     scene.environment = compass();
     const std::vector<float> picture = rendered(scene);
@@ -111,7 +111,7 @@ TEST_CASE("an environment is the background of a perspective picture, each pixel
     text.resize(text.find("[[object]]"));
     text.replace(text.find("projection"), std::string("projection = \"orthographic\"\nheight = 2.2").size(),
                  "fov = 90");
-    candela::CompiledScene scene = compiled(text).scene;
+    candela::RenderScene scene = compiled(text).scene;
     scene.environment = compass();
     const std::vector<float> picture = rendered(scene);
     for (const auto& [column, row] : {std::pair{0, 0}, {109, 0}, {55, 55}, {17, 93}}) {

@@ -37,7 +37,7 @@ reflection = "lambert"
 )";
 }
 
-candela::Film picture_of(const candela::CompiledScene& scene, candela::PixelType pixels) {
+candela::Film picture_of(const candela::RenderScene& scene, candela::PixelType pixels) {
     candela::Film film(scene.image.width, scene.image.height, pixels, scene.image.color_management);
     candela::render(scene, film, {});
     return film;
@@ -52,8 +52,8 @@ bool are_equal(std::span<const T> some, std::span<const T> all, std::size_t at) 
 
 TEST_CASE("a film of some rows gets the whole picture's content there") {
     for (const int samples : {1, 8}) {
-        const Compiled compiled_scene = compiled(scene_of(203, 331, samples));
-        const candela::CompiledScene& scene = compiled_scene.scene;
+        const Compiled render_scene = compiled(scene_of(203, 331, samples));
+        const candela::RenderScene& scene = render_scene.scene;
         const candela::Film whole = picture_of(scene, candela::PixelType::real);
         // At tile borders and within tiles.
         for (const candela::RowRange rows :
@@ -74,8 +74,8 @@ TEST_CASE("a film of some rows gets the whole picture's content there") {
 
 TEST_CASE("rows requested in any number are those of the picture, across several bands") {
     // A band has 64 MB: 320 of these rows.
-    const Compiled compiled_scene = compiled(scene_of(65536, 700));
-    const candela::CompiledScene& scene = compiled_scene.scene;
+    const Compiled render_scene = compiled(scene_of(65536, 700));
+    const candela::RenderScene& scene = render_scene.scene;
     const candela::Film whole = picture_of(scene, candela::PixelType::byte);
     for (const int count : {1, 64, 321, 5000}) {
         candela::RenderedRows rows(scene, candela::PixelType::byte, {100, 700}, {});
@@ -87,7 +87,7 @@ TEST_CASE("rows requested in any number are those of the picture, across several
             done += static_cast<std::size_t>(some.height);
         }
         CHECK(rows.next(1).height == 0);
-        CHECK(rows.why_black().empty());
+        CHECK(rows.darkness_diagnosis().empty());
         CHECK(rows.statistics().pixels_shaded > 0);
     }
 }

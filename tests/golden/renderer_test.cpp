@@ -77,7 +77,7 @@ class Fixture {
     const candela::RenderStatistics& statistics() const { return statistics_; }
     const candela::Scene& source() const { return source_; }
 
-    candela::CompiledScene scene;
+    candela::RenderScene scene;
 
   private:
     explicit Fixture(Compiled compiled)

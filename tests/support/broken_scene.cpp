@@ -120,13 +120,13 @@ class Breaker {
     }
 
     /// A parameter of a random light or object, with the table that it belongs to.
-    struct Place {
+    struct ParameterReference {
         SceneTable* table;
         Parameter parameter;
     };
     template <class Wanted>
-    std::optional<Place> any_parameter(Wanted is_wanted) {
-        std::vector<Place> all;
+    std::optional<ParameterReference> any_parameter(Wanted is_wanted) {
+        std::vector<ParameterReference> all;
         for (SceneTable& table : scene_.tables) {
             const bool is_light = table.header == "[[light]]";
             if (!is_light && table.header != "[[object]]") continue;
@@ -140,7 +140,7 @@ class Breaker {
         }
         return all.empty() ? std::nullopt : std::optional(one_of(all));
     }
-    std::optional<Change> spoil(const std::optional<Place>& place, const std::string& rule,
+    std::optional<Change> spoil(const std::optional<ParameterReference>& place, const std::string& rule,
                                 const std::string& value, const std::string& message) {
         if (!place) return std::nullopt;
         place->table->set(place->parameter.name, value);

@@ -12,7 +12,7 @@ Compiled compiled(const candela::SceneRequest& request) {
     auto source = candela::read_scene(request, test_registry(), diagnostics);
     INFO(diagnostics_text(diagnostics, false));
     REQUIRE(source.has_value());
-    auto scene = candela::compile(*source, test_registry(), diagnostics);
+    auto scene = candela::build(*source, test_registry(), diagnostics);
     REQUIRE(scene.has_value());
     return {std::move(*source), std::move(*scene)};
 }

@@ -8,13 +8,13 @@
 import candela.core;
 
 // Instantiated here, because clang 19 otherwise declares the implicit destructor of Rgb once per module that
-// has it, on reaching that of a CompiledScene.
+// has it, on reaching that of a RenderScene.
 static_assert(std::is_destructible_v<candela::Rgb>);
 
 /// A scene as read, and compiled with its models and triangles.
 struct Compiled {
     candela::Scene source;
-    candela::CompiledScene scene;
+    candela::RenderScene scene;
 };
 
 /// Fails the test, with the diagnostics, if the scene is not valid.

@@ -286,17 +286,17 @@ TEST_CASE("frames compiled in sequence equal frames compiled alone, and reuse wh
                   "[[animation.track]]\npath = \"object.box.rotation\"\nkeys = [[1, [0, 0, 0]], [2, "
                   "[0, 45, 0]]]\n[[animation.track]]\npath = \"object.ball.color\"\nkeys = [[2, "
                   "[200, 200, 200]], [3, [9, 200, 9]]]\n");
-    candela::FrameCompiler compiler(test_registry());
+    candela::FrameBuilder builder(test_registry());
     candela::Renderer renderer(candela::Renderer::Keep::visibility);
     std::vector<bool> kept;
     for (const int number : {0, 1, 2, 3, 0}) {
         candela::Diagnostics diagnostics;
         const candela::SceneDraft draft = frames.draft(number, diagnostics);
-        const candela::CompiledScene* const scene = compiler.compile(draft, diagnostics);
+        const candela::RenderScene* const scene = builder.build(draft, diagnostics);
         REQUIRE(scene != nullptr);
-        kept.push_back(compiler.has_kept_triangles());
+        kept.push_back(builder.has_kept_triangles());
         if (!kept.back()) renderer.forget();
-        const auto alone = candela::compile(draft, test_registry(), diagnostics);
+        const auto alone = candela::build(draft, test_registry(), diagnostics);
         REQUIRE(alone);
         candela::Film a(24, 16, candela::PixelType::byte, candela::ColorEncoding::srgb);
         candela::Film b(24, 16, candela::PixelType::byte, candela::ColorEncoding::srgb);

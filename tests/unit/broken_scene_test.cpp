@@ -22,7 +22,7 @@ TEST_CASE("one randomly broken constraint is reported at its place, and nothing 
         candela::SceneRequest request;
         request.files = {file};
         const auto draft = candela::draft_scene(request, test_registry(), diagnostics);
-        if (draft) candela::compile(*draft, test_registry(), diagnostics);
+        if (draft) candela::build(*draft, test_registry(), diagnostics);
 
         INFO("seed " << seed << ", " << broken.rule << "\n"
                      << diagnostics_text(diagnostics, false) << broken.text);

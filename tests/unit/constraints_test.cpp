@@ -37,7 +37,7 @@ Result checked(const std::string& tables, int faces_of_the_box = 6) {
     request.files = {write_file(directory / "scene.toml", k_start + tables)};
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(request, test_registry(), diagnostics);
-    if (draft) candela::compile(*draft, test_registry(), diagnostics);
+    if (draft) candela::build(*draft, test_registry(), diagnostics);
     return {!diagnostics.has_errors(), diagnostics_text(diagnostics, false)};
 }
 

@@ -44,7 +44,7 @@ TEST_CASE("at most 50 diagnostics are shown, in order of position, and the rest 
     Diagnostics diagnostics;
     diagnostics.remember_source("a.toml", std::string(80, '\n'));
     for (int line = 80; line > 0; --line) {
-        const candela::SourcePlace place{"a.toml", line, 1, 1};
+        const candela::SourceLocation place{"a.toml", line, 1, 1};
         line % 4 == 0 ? diagnostics.warning(place, "odd") : diagnostics.error(place, "wrong");
     }
     const std::string text = diagnostics_text(diagnostics, false);

@@ -8,14 +8,14 @@
 #include "support/plugins.h"
 #include "support/samples.h"
 
-using candela::Environment;
+using candela::EnvironmentMap;
 using candela::Rgb;
 using candela::Vec3;
 
 namespace {
 
 /// A picture with pixel numbers in red, columns in green, rows in blue.
-Environment numbered(int width, int height) {
+EnvironmentMap numbered(int width, int height) {
     std::vector<float> intensity;
     for (int row = 0; row < height; ++row) {
         for (int column = 0; column < width; ++column) {
@@ -40,19 +40,19 @@ Vec3 middle(int column, int row, int width, int height) {
 }  // namespace
 
 TEST_CASE("an environment of one intensity has it in every direction") {
-    const Environment grey({0.25f, 0.5f, 0.75f});
+    const EnvironmentMap grey({0.25f, 0.5f, 0.75f});
     CHECK(grey.is_uniform());
     CHECK(grey.seen({0, 0, -1}) == Rgb{0.25f, 0.5f, 0.75f});
     CHECK(grey.seen({0.6f, -0.8f, 0}) == Rgb{0.25f, 0.5f, 0.75f});
 }
 
 TEST_CASE("an environment's largest intensity is that over all directions and channels") {
-    CHECK(Environment({0.25f, 0.75f, 0.5f}).max_intensity() == 0.75f);
+    CHECK(EnvironmentMap({0.25f, 0.75f, 0.5f}).max_intensity() == 0.75f);
     CHECK(numbered(8, 4).max_intensity() == 31);
 }
 
 TEST_CASE("an environment picture shows a pixel's exact value at the pixel's middle") {
-    const Environment picture = numbered(8, 4);
+    const EnvironmentMap picture = numbered(8, 4);
     CHECK_FALSE(picture.is_uniform());
     for (int row = 0; row < 4; ++row) {
         for (int column = 0; column < 8; ++column) {
@@ -65,7 +65,7 @@ TEST_CASE("an environment picture shows a pixel's exact value at the pixel's mid
 
 TEST_CASE(
     "an environment picture has -z in its middle, +x to the right, +y at the top, and its sides meet at +z") {
-    const Environment picture = numbered(8, 4);
+    const EnvironmentMap picture = numbered(8, 4);
     CHECK(is_near(picture.seen({0, 0, -1}), (11 + 12 + 19 + 20) / 4.0f, 3.5f, 1.5f));
     CHECK(is_near(picture.seen({1, 0, 0}), (13 + 14 + 21 + 22) / 4.0f, 5.5f, 1.5f));
     CHECK(picture.seen({0, 1, 0}).b == 0);
@@ -75,13 +75,13 @@ TEST_CASE(
 }
 
 TEST_CASE("an environment of one pixel is that pixel in every direction") {
-    const Environment picture(1, 1, {1, 2, 3});
+    const EnvironmentMap picture(1, 1, {1, 2, 3});
     Random random(5);
     for (int i = 0; i < 100; ++i) CHECK(is_near(picture.seen(random.direction()), 1, 2, 3));
 }
 
 TEST_CASE("a NaN direction sees one of the environment's pixels") {
-    const Environment picture(2, 2, {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+    const EnvironmentMap picture(2, 2, {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
     const float none = std::numeric_limits<float>::quiet_NaN();
     CHECK(is_near(picture.seen({none, 0, 0}), 1, 1, 1));
     CHECK(is_near(picture.seen({0, none, 0}), 1, 1, 1));
@@ -91,11 +91,11 @@ TEST_CASE("an environment is read decoded from 8-bit files, and unchanged from f
     const auto directory = scratch_directory();
     // Portable pixmap, 2 x 1: white, and middle grey as sRGB encodes 0.2159 (IEC 61966-2-1).
     std::ofstream(directory / "two.ppm", std::ios::binary) << "P6\n2 1\n255\n\xff\xff\xff\x80\x80\x80";
-    const Environment decoded =
+    const EnvironmentMap decoded =
         candela::read_environment(directory / "two.ppm", test_registry(), candela::ColorEncoding::srgb);
     CHECK(is_near(decoded.seen({-1, 0, 0}), 1, 1, 1));
     CHECK(std::abs(decoded.seen({1, 0, 0}).r - 0.2159f) < 1e-4f);
-    const Environment plain =
+    const EnvironmentMap plain =
         candela::read_environment(directory / "two.ppm", test_registry(), candela::ColorEncoding::none);
     CHECK(std::abs(plain.seen({1, 0, 0}).r - 128 / 255.0f) < 1e-4f);
     // Portable float map, 1 x 1, little-endian.
@@ -104,7 +104,7 @@ TEST_CASE("an environment is read decoded from 8-bit files, and unchanged from f
     map << "PF\n1 1\n-1.0\n";
     map.write(reinterpret_cast<const char*>(pixel), sizeof pixel);
     map.close();
-    const Environment bright =
+    const EnvironmentMap bright =
         candela::read_environment(directory / "one.pfm", test_registry(), candela::ColorEncoding::srgb);
     CHECK(is_near(bright.seen({0, 0, 1}), 7.5f, 0.25f, 0));
 }

@@ -136,7 +136,7 @@ TEST_CASE("of thousands of damaged scenes, every error has a position, and every
         INFO(request.streams["-"]);
         candela::Diagnostics diagnostics;
         const auto draft = candela::draft_scene(request, test_registry(), diagnostics);
-        const auto compiled = draft ? candela::compile(*draft, test_registry(), diagnostics) : std::nullopt;
+        const auto compiled = draft ? candela::build(*draft, test_registry(), diagnostics) : std::nullopt;
         REQUIRE(compiled.has_value() == !diagnostics.has_errors());
         ++(compiled ? valid : invalid);
         for (const candela::Diagnostic& d : diagnostics.sorted()) {

@@ -129,23 +129,23 @@ TEST_CASE("parameters are delivered as plugins expect them") {
     using candela::ColorEncoding;
     ParamSet angle =
         set_of({.name = "a", .type = ParamType::real, .unit = "deg", .meaning = "", .default_value = 180.0});
-    CHECK(agree(angle.delivered(ColorEncoding::none)[0].number[0], 3.14159265, 1e-6));
+    CHECK(agree(angle.runtime(ColorEncoding::none)[0].number[0], 3.14159265, 1e-6));
     ParamSet direction =
         set_of({.name = "d", .type = ParamType::direction, .meaning = "", .default_value = Vec3{0, 3, 4}});
-    CHECK(direction.delivered(ColorEncoding::none)[0].number[1] == 0.6f);
+    CHECK(direction.runtime(ColorEncoding::none)[0].number[1] == 0.6f);
     ParamSet color =
         set_of({.name = "c", .type = ParamType::color, .meaning = "", .default_value = Vec3{255, 51, 0}});
-    CHECK(agree(color.delivered(ColorEncoding::none)[0].number[1], 0.2, 1e-6));
-    CHECK(agree(color.delivered(ColorEncoding::srgb)[0].number[1], 0.033105, 1e-4));
+    CHECK(agree(color.runtime(ColorEncoding::none)[0].number[1], 0.2, 1e-6));
+    CHECK(agree(color.runtime(ColorEncoding::srgb)[0].number[1], 0.033105, 1e-4));
     ParamSet choice = set_of({.name = "w",
                               .type = ParamType::choice,
                               .meaning = "",
                               .default_value = std::string("two"),
                               .choices = {"one", "two"}});
-    CHECK(choice.delivered(ColorEncoding::none)[0].integer == 1);
+    CHECK(choice.runtime(ColorEncoding::none)[0].integer == 1);
     ParamSet required =
         set_of({.name = "r", .type = ParamType::point, .meaning = "", .default_value = std::nullopt});
-    CHECK_THROWS_AS(required.delivered(ColorEncoding::none), std::invalid_argument);
+    CHECK_THROWS_AS(required.runtime(ColorEncoding::none), std::invalid_argument);
 }
 
 TEST_CASE("matrices are delivered row by row, lists complete, and both are written as in a scene file") {
@@ -153,13 +153,13 @@ TEST_CASE("matrices are delivered row by row, lists complete, and both are writt
     ParamSet set(
         {{.name = "m", .type = ParamType::matrix, .default_value = rows},
          {.name = "n", .type = ParamType::numbers, .default_value = std::vector<float>{0.5f, 2, 1}}});
-    const auto delivered = set.delivered(candela::ColorEncoding::none);
+    const auto delivered = set.runtime(candela::ColorEncoding::none);
     CHECK(std::ranges::equal(delivered[0].number, rows));
     CHECK(std::ranges::equal(delivered[1].list, std::vector<float>{0.5f, 2, 1}));
     CHECK(candela::text_of(set.get("m")) == "[[1, 2, 3], [4, 5, 6], [7, 8, 9]]");
     CHECK(candela::text_of(set.get("n")) == "[0.5, 2, 1]");
     set.set("n", std::vector<float>{7});
-    CHECK(set.delivered(candela::ColorEncoding::none)[1].list.size() == 1);
+    CHECK(set.runtime(candela::ColorEncoding::none)[1].list.size() == 1);
     CHECK_THROWS_AS(set.set("n", std::vector<float>{}), std::invalid_argument);
     CHECK_THROWS_AS(set.set("n", std::vector<float>{1, std::numeric_limits<float>::infinity()}),
                     std::invalid_argument);

@@ -267,7 +267,7 @@ TEST_CASE("a plugin's exception becomes an error that names the plugin") {
         const auto scene = candela::read_scene(request, registry, diagnostics);
         INFO(diagnostics_text(diagnostics, false));
         REQUIRE(scene);
-        const auto compiled = candela::compile(*scene, registry, diagnostics);
+        const auto compiled = candela::build(*scene, registry, diagnostics);
         REQUIRE(compiled);
         candela::Film film(64, 64, candela::PixelType::byte, candela::ColorEncoding::srgb);
         for (const int threads : {1, 4}) {

@@ -80,7 +80,7 @@ TEST_CASE("random scenes violate no geometric constraint") {
         candela::SceneRequest request;
         request.files = {write_file(directory / (std::to_string(seed) + ".toml"), random_scene(seed).text())};
         const auto draft = candela::draft_scene(request, test_registry(), diagnostics);
-        const auto compiled = draft ? candela::compile(*draft, test_registry(), diagnostics) : std::nullopt;
+        const auto compiled = draft ? candela::build(*draft, test_registry(), diagnostics) : std::nullopt;
         INFO("seed " << seed << "\n" << diagnostics_text(diagnostics, false));
         REQUIRE(compiled);
     }

@@ -19,20 +19,20 @@ class KeepingRenderer {
         : registry_(scene.registry()),
           request_(scene.request()),
           threads_(threads),
-          compiler_(registry_->registry()) {
-        compile(request_);
+          builder_(registry_->registry()) {
+        build(request_);
     }
 
     void set(const Settings& settings) {
         const std::lock_guard lock(mutex_);
         SceneRequest changed = with_settings(request_, settings);
-        compile(changed);
+        build(changed);
         request_ = std::move(changed);
     }
 
     Film render(bool floats) {
         const std::lock_guard lock(mutex_);
-        if (compiled_ == nullptr) compile(request_);  // the latest change was rejected
+        if (compiled_ == nullptr) build(request_);  // the latest change was rejected
         const ImageSettings& image = compiled_->image;
         Film film(image.width, image.height, floats ? PixelType::real : PixelType::byte,
                   image.color_management);
@@ -46,13 +46,13 @@ class KeepingRenderer {
     }
 
   private:
-    void compile(const SceneRequest& request) {
+    void build(const SceneRequest& request) {
         Diagnostics diagnostics;
         const SceneDraft draft = valid_draft(request, registry_->registry(), diagnostics);
         // Invalidates what it returned before.
         compiled_ = nullptr;
-        const CompiledScene* const compiled = compiler_.compile(draft, diagnostics, threads_);
-        if (compiled == nullptr || !compiler_.has_kept_triangles()) renderer_.forget();
+        const RenderScene* const compiled = builder_.build(draft, diagnostics, threads_);
+        if (compiled == nullptr || !builder_.has_kept_triangles()) renderer_.forget();
         if (compiled == nullptr) throw InvalidInput(InvalidInput::What::scene, diagnostics);
         compiled_ = compiled;
         warnings_ = problems_of(diagnostics);
@@ -62,9 +62,9 @@ class KeepingRenderer {
     RegistryPointer registry_;
     SceneRequest request_;
     int threads_;
-    FrameCompiler compiler_;
+    FrameBuilder builder_;
     candela::Renderer renderer_{candela::Renderer::Keep::visibility};
-    const CompiledScene* compiled_ = nullptr;
+    const RenderScene* compiled_ = nullptr;
     std::vector<Problem> warnings_;
 };
 

@@ -23,7 +23,7 @@ class ReadScene {
     const RegistryPointer& registry() const noexcept { return registry_; }
     const SceneRequest& request() const noexcept { return request_; }
     const Scene& scene() const noexcept { return scene_; }
-    const CompiledScene& compiled() const noexcept { return compiled_; }
+    const RenderScene& compiled() const noexcept { return compiled_; }
     const std::vector<Problem>& warnings() const noexcept { return warnings_; }
     int threads() const noexcept { return threads_; }
 
@@ -32,7 +32,7 @@ class ReadScene {
     SceneRequest request_;
     int threads_;
     Scene scene_;
-    CompiledScene compiled_;
+    RenderScene compiled_;
     std::vector<Problem> warnings_;
 };
 

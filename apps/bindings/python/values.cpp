@@ -36,7 +36,7 @@ void add_lines(const TableNode& table, std::string& text) {
 
 Node node_of(py::handle given, const std::string& file) {
     const py::object value = plain(given);
-    const SourcePlace place{.file = file};
+    const SourceLocation place{.file = file};
     if (py::isinstance<py::bool_>(value)) return {place, value.cast<bool>()};
     if (py::isinstance<py::int_>(value)) return {place, value.cast<std::int64_t>()};
     if (py::isinstance<py::float_>(value)) return {place, value.cast<double>()};

@@ -28,7 +28,7 @@ candela::TableNode::Entry entry_from(const std::string& text, candela::Diagnosti
                     fmt::format("--{0} '{1}' has no value; expected NAME=VALUE, such as --{0} quality=80",
                                 k_option, text));
     const std::string name = text.substr(0, equals);
-    const candela::SourcePlace place{fmt::format("--{} {}", k_option, name), 0, 0, 0};
+    const candela::SourceLocation place{fmt::format("--{} {}", k_option, name), 0, 0, 0};
     auto value = candela::parse_value(text.substr(equals + 1), place, diagnostics);
     return {name, place, value ? *std::move(value) : candela::Node{place, {}}};
 }

@@ -9,9 +9,9 @@
 #include "console/reporting.h"
 #include "console/terminal.h"
 
-std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& draft,
-                                                    candela::Registry& registry,
-                                                    candela::Diagnostics& diagnostics, int threads) {
+std::optional<candela::RenderScene> compile_scene(const candela::SceneDraft& draft,
+                                                  candela::Registry& registry,
+                                                  candela::Diagnostics& diagnostics, int threads) {
     ProgressBar bar("reading", !is_quiet());
     // Placing the shapes is the first of three steps. After it, the models' source data only takes up memory.
     std::atomic<bool> are_placed{false};
@@ -19,7 +19,7 @@ std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& d
         if (done >= all / 3 && !are_placed.exchange(true)) forget_triangles_of_models();
         bar.update(done, all);
     };
-    auto compiled = candela::compile(draft, registry, diagnostics, threads, tell);
+    auto compiled = candela::build(draft, registry, diagnostics, threads, tell);
     forget_triangles_of_models();
     return compiled;
 }

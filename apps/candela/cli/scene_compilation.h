@@ -9,10 +9,10 @@ import candela.render;
 import candela.scene;
 import candela.util;
 
-/// candela::compile() with a progress bar if it takes long.
-std::optional<candela::CompiledScene> compile_scene(const candela::SceneDraft& draft,
-                                                    candela::Registry& registry,
-                                                    candela::Diagnostics& diagnostics, int threads = 0);
+/// candela::build() with a progress bar if it takes long.
+std::optional<candela::RenderScene> compile_scene(const candela::SceneDraft& draft,
+                                                  candela::Registry& registry,
+                                                  candela::Diagnostics& diagnostics, int threads = 0);
 
 /// candela::check_frames() with a progress bar if it takes long.
 void check_all_frames(candela::SceneFrames& frames, const std::vector<int>& numbers,

@@ -42,7 +42,7 @@ class FrameRenderer {
         : frames_(frames),
           format_(format),
           threads_(threads),
-          compiler_(registry),
+          builder_(registry),
           fingerprints_(registry, format),
           writer_(registry, format, threads) {}
 
@@ -53,14 +53,14 @@ class FrameRenderer {
         require_no_scene_file(file.string(), candela::input_files(draft), "the frames");
         const std::string inputs = fingerprints_.of(draft);
         if (!is_forced && is_up_to_date(file, inputs, candela::Links::not_followed)) return false;
-        const candela::CompiledScene* const scene = compiler_.compile(draft, known, threads_);
+        const candela::RenderScene* const scene = builder_.build(draft, known, threads_);
         if (scene == nullptr) {
             report(known);
             throw Error(
                 ErrorCategory::failure,
                 fmt::format("frame {} can no longer be rendered: a file of the scene has changed", frame));
         }
-        if (!compiler_.has_kept_triangles()) renderer_.forget();
+        if (!builder_.has_kept_triangles()) renderer_.forget();
         candela::Film& film = film_for(*scene);
         const auto statistics = renderer_.render(*scene, film, {.threads = threads_});
         warn_if_dark(*scene, film, statistics, frame);
@@ -72,7 +72,7 @@ class FrameRenderer {
     void finish() { writer_.finish(); }
 
   private:
-    candela::Film& film_for(const candela::CompiledScene& scene) {
+    candela::Film& film_for(const candela::RenderScene& scene) {
         const candela::ImageSettings& image = scene.image;
         if (!film_ || encoding_ != image.color_management) {
             film_.emplace(image.width, image.height, format_.pixels, image.color_management);
@@ -81,9 +81,9 @@ class FrameRenderer {
         return *film_;
     }
 
-    void warn_if_dark(const candela::CompiledScene& scene, const candela::Film& film,
+    void warn_if_dark(const candela::RenderScene& scene, const candela::Film& film,
                       const candela::RenderStatistics& statistics, int frame) {
-        const std::string darkness = candela::why_black(scene, film, statistics);
+        const std::string darkness = candela::darkness_diagnosis(scene, film, statistics);
         if (!darkness.empty() && said_.insert(darkness).second)
             warn(fmt::format("nothing in frame {} is lit: {}", frame, darkness));
     }
@@ -91,7 +91,7 @@ class FrameRenderer {
     candela::SceneFrames& frames_;
     candela::PictureFormat format_;
     int threads_;
-    candela::FrameCompiler compiler_;
+    candela::FrameBuilder builder_;
     candela::Renderer renderer_{candela::Renderer::Keep::visibility};
     InputFingerprints fingerprints_;
     FrameWriter writer_;

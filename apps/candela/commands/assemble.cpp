@@ -116,10 +116,10 @@ std::string ranges_of(const std::vector<int>& numbers) {
 void require_all_parts(const fs::path& picture, const PartedPicture& parted) {
     std::vector<int> missing, other;
     for (int i = 1; i <= parted.parts; ++i) {
-        const Recorded is =
+        const CacheState is =
             recorded(file_of_part(picture, {i, parted.parts}), parted.inputs_of_parts(), Links::not_followed);
-        if (is == Recorded::missing) missing.push_back(i);
-        if (is == Recorded::other) other.push_back(i);
+        if (is == CacheState::missing) missing.push_back(i);
+        if (is == CacheState::other) other.push_back(i);
     }
     if (missing.empty() && other.empty()) return;
     std::string problem;
@@ -157,7 +157,7 @@ int assemble(const CommandLine& line) {
         record(picture, parted.inputs, Links::followed);
     } catch (const Error&) {
         // Another process has assembled it and removed the parts.
-        if (recorded(picture, parted.inputs, Links::followed) != Recorded::made) throw;
+        if (recorded(picture, parted.inputs, Links::followed) != CacheState::made) throw;
     }
     if (!line.has("keep-parts")) fs::remove_all(folder_of_parts(picture), problem);
     say_afterwards([&] {

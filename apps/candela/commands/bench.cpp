@@ -48,7 +48,7 @@ struct Plan {
     int frames, warm_up, threads;
 };
 
-Times measure(const candela::CompiledScene& scene, const Plan& plan, candela::Film& film,
+Times measure(const candela::RenderScene& scene, const Plan& plan, candela::Film& film,
               candela::RenderStatistics& statistics) {
     Times times;
     ProgressBar bar("measuring");
@@ -120,7 +120,7 @@ int run_bench(const std::vector<std::string>& arguments) {
     const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
     const double read_ms = reading.milliseconds();
     const Stopwatch compiling;
-    const auto scene = draft ? candela::compile(*draft, registry, diagnostics, plan.threads) : std::nullopt;
+    const auto scene = draft ? candela::build(*draft, registry, diagnostics, plan.threads) : std::nullopt;
     const double compile_ms = compiling.milliseconds();
     report(diagnostics);
     if (!scene) return static_cast<int>(exit_code_of(diagnostics));

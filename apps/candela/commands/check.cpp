@@ -22,8 +22,8 @@
 import candela.render;
 import candela.util;
 
-using candela::CompiledScene;
 using candela::Diagnostics;
+using candela::RenderScene;
 using candela::Scene;
 
 namespace {
@@ -50,9 +50,9 @@ std::vector<std::string> names_of(const Items& items, NameOf name_of) {
 
 std::string in_parentheses(const std::string& text) { return text.empty() ? "" : " (" + text + ")"; }
 
-std::size_t triangles_of(const CompiledScene& compiled) {
+std::size_t triangles_of(const RenderScene& compiled) {
     std::size_t all = 0;
-    for (const candela::SolidObject& object : compiled.objects) all += object.mesh.triangle_count();
+    for (const candela::RenderObject& object : compiled.objects) all += object.mesh.triangle_count();
     return all;
 }
 
@@ -77,7 +77,7 @@ Json animation_json(const candela::Animation& animation) {
             {"tracks", std::move(tracks)}};
 }
 
-void print_summary(const Scene& scene, const CompiledScene& compiled) {
+void print_summary(const Scene& scene, const RenderScene& compiled) {
     const candela::Room& room = scene.room;
     std::cout << "The scene is valid.\n"
               << fmt::format("  room      {} m wide, {} m high, {} m deep\n", room.width, room.height,
@@ -107,7 +107,7 @@ void print_summary(const Scene& scene, const CompiledScene& compiled) {
     }
 }
 
-void print_json(const std::optional<CompiledScene>& compiled, const Scene* scene,
+void print_json(const std::optional<RenderScene>& compiled, const Scene* scene,
                 const Diagnostics& diagnostics) {
     Json result = {{"valid", compiled.has_value()},
                    {"diagnostics", parse_json(diagnostics_json(diagnostics))}};
@@ -161,7 +161,7 @@ int run_check(const std::vector<std::string>& arguments) {
     request.ask = nullptr;
     auto frames = candela::SceneFrames::read(request, registry, diagnostics);
     std::optional<candela::SceneDraft> draft;
-    std::optional<CompiledScene> compiled;
+    std::optional<RenderScene> compiled;
     if (frames && frames->animation()) {
         // Errors of this frame are found with those of all others.
         Diagnostics ignored;

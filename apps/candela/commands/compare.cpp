@@ -187,7 +187,7 @@ class PaneRenderer {
         candela::Film film(compiled->image.width, compiled->image.height, pixels_,
                            compiled->image.color_management);
         const auto statistics = candela::render(*compiled, film, {});
-        const std::string darkness = candela::why_black(*compiled, film, statistics);
+        const std::string darkness = candela::darkness_diagnosis(*compiled, film, statistics);
         if (!darkness.empty()) warn(fmt::format("nothing in the picture '{}' is lit: {}", label, darkness));
         return film;
     }

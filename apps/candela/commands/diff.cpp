@@ -5,4 +5,4 @@
 #include "cli/commands.h"
 #include "programs/sibling_program.h"
 
-int run_diff(const std::vector<std::string>& arguments) { become_helper(comparing_program(), arguments); }
+int run_diff(const std::vector<std::string>& arguments) { exec_sibling(comparing_program(), arguments); }

@@ -174,9 +174,9 @@ exercise::Case case_of(const Setup& setup, const Ball& ball, const candela::Plug
                           .ambient = {},
                           .diffuse = {},
                           .specular = {}};
-    const auto delivered = reflection.parameters.delivered(scene.image.color_management);
+    const auto runtime = reflection.parameters.runtime(scene.image.color_management);
     for (const std::size_t i : plugin.kernel.members)
-        result.material.push_back(uniform_of(plugin.parameters[i], delivered[i]));
+        result.material.push_back(uniform_of(plugin.parameters[i], runtime[i]));
     evaluate(*instance, ball, result);
     return result;
 }

@@ -20,7 +20,7 @@ void add_approximate_option(CommandLine& line);
 struct SceneToExport {
     std::string title;
     candela::Scene scene;
-    candela::CompiledScene compiled;
+    candela::RenderScene compiled;
     std::vector<std::filesystem::path> inputs;  // the files the scene is made from
 };
 /// Nothing if there are errors, which are reported.

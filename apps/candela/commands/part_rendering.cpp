@@ -28,7 +28,7 @@ using candela::Links;
 namespace {
 
 void warn_if_dark(const candela::RenderedRows& rows) {
-    const std::string darkness = rows.why_black();
+    const std::string darkness = rows.darkness_diagnosis();
     if (!darkness.empty()) warn("nothing in the picture is lit: " + darkness);
 }
 
@@ -59,7 +59,7 @@ bool is_streamed(const candela::ImageSettings& image, const candela::PictureForm
     return size > k_large && candela::can_write_rows(format, registry);
 }
 
-int render_by_rows(const CommandLine& line, const candela::CompiledScene& scene,
+int render_by_rows(const CommandLine& line, const candela::RenderScene& scene,
                    const candela::PictureFormat& format, candela::Existing existing,
                    candela::Registry& registry, const Stopwatch& total) {
     const auto output = line.get<std::string>("output");
@@ -108,7 +108,7 @@ int render_part(const CommandLine& line) {
     const PartedPicture parted = parted_picture_of(*draft, format, part.of, registry);
     const fs::path file = file_of_part(output, part);
     const char* is_done = nullptr;
-    if (recorded(output, parted.inputs, Links::followed) == Recorded::made) {
+    if (recorded(output, parted.inputs, Links::followed) == CacheState::made) {
         is_done = "the picture is already complete";
     } else {
         write_description(parted, output);

@@ -15,7 +15,7 @@ bool is_streamed(const candela::ImageSettings& image, const candela::PictureForm
 
 /// Renders a picture into the file that --output names, with only some bands in memory. Returns the exit
 /// code.
-int render_by_rows(const CommandLine& line, const candela::CompiledScene& scene,
+int render_by_rows(const CommandLine& line, const candela::RenderScene& scene,
                    const candela::PictureFormat& format, candela::Existing existing,
                    candela::Registry& registry, const Stopwatch& total);
 

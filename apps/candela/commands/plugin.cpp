@@ -14,7 +14,7 @@ int run_plugin_test(const std::vector<std::string>& arguments) {
         print_file_completions(FileKind::any);
         return 0;
     }
-    become_helper(conformance_kit(), arguments);
+    exec_sibling(conformance_kit(), arguments);
 }
 
 int run_plugin(const std::vector<std::string>& arguments) {

@@ -125,7 +125,7 @@ int render_picture(const CommandLine& line) {
             .progress = [&](std::size_t done, std::size_t all) { bar.update(done, all); }};
         statistics = candela::render(*compiled, film, options);
     }
-    const std::string darkness = candela::why_black(*compiled, film, statistics);
+    const std::string darkness = candela::darkness_diagnosis(*compiled, film, statistics);
     if (!darkness.empty()) warn("nothing in the picture is lit: " + darkness);
     const bool is_verbose = line.has("verbose");
     const Stopwatch writing;

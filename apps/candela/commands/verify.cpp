@@ -69,7 +69,7 @@ verify::Limits limits_from(const CommandLine& line) {
 }
 
 /// Candela's picture, written to reference.png and edges.png, and its known properties.
-verify::Expectation expectation_of(candela::CompiledScene& scene, double tolerance, const fs::path& folder,
+verify::Expectation expectation_of(candela::RenderScene& scene, double tolerance, const fs::path& folder,
                                    candela::Registry& registry) {
     const candela::ImageSettings& image = scene.image;
     candela::Film film(image.width, image.height, candela::PixelType::byte, image.color_management);
@@ -128,7 +128,7 @@ struct Verification {
     fs::path comparing;
 };
 
-std::vector<verify::Verdict> verdicts_on(const Verification& what, candela::CompiledScene& scene,
+std::vector<verify::Verdict> verdicts_on(const Verification& what, candela::RenderScene& scene,
                                          const Workplace& workplace, candela::Registry& registry) {
     const fs::path& folder = workplace.path();
     std::vector<verify::Verdict> verdicts;

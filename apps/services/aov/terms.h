@@ -40,7 +40,7 @@ std::vector<std::filesystem::path> files_of(const std::vector<NamedTerm>& terms,
 /// Renders terms of one scene, one after another.
 class TermRenderer {
   public:
-    explicit TermRenderer(const candela::CompiledScene& scene, int threads)
+    explicit TermRenderer(const candela::RenderScene& scene, int threads)
         : scene_(scene), threads_(threads) {}
 
     /// The term's values, unchanged.
@@ -51,7 +51,7 @@ class TermRenderer {
     candela::Film picture(const NamedTerm& term, candela::PixelType pixels);
 
   private:
-    const candela::CompiledScene& scene_;
+    const candela::RenderScene& scene_;
     int threads_;
     // Each keeps the visibility: with the picture's samples, and at the centre of each pixel.
     candela::Renderer lit_{candela::Renderer::Keep::visibility};

@@ -19,16 +19,16 @@ import candela.util;
 using candela::Diagnostic;
 using candela::Help;
 using candela::Severity;
-using candela::SourcePlace;
+using candela::SourceLocation;
 
 namespace {
 
 /// Hides the place in a scene that an importer made: nobody can look it up.
-SourcePlace visible(SourcePlace place) {
-    return importing::is_model(place.file) ? SourcePlace{.file = std::move(place.file)} : place;
+SourceLocation visible(SourceLocation place) {
+    return importing::is_model(place.file) ? SourceLocation{.file = std::move(place.file)} : place;
 }
 
-std::string location(const SourcePlace& place) {
+std::string location(const SourceLocation& place) {
     if (place.line == 0) return place.file;
     return fmt::format("{}:{}:{}", place.file, place.line, place.column);
 }
@@ -63,7 +63,7 @@ std::string sentence(std::string_view text) {
 
 /// A line, or the readable part of it, and marks below the position. Tabs stay tabs, so that the marks line
 /// up whatever the tab width.
-std::array<std::string, 2> excerpt(std::string_view line, const SourcePlace& place) {
+std::array<std::string, 2> excerpt(std::string_view line, const SourceLocation& place) {
     constexpr std::size_t k_widest = 160;
     constexpr std::size_t k_before = 60;
     const std::size_t all = candela::character_count(line);
@@ -177,7 +177,7 @@ std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_co
 std::string diagnostics_json(const candela::Diagnostics& diagnostics) {
     Json all = Json::array();
     for (const Diagnostic& d : diagnostics.sorted()) {
-        const SourcePlace place = visible(d.place);
+        const SourceLocation place = visible(d.place);
         all.push_back({{"severity", word(d.severity)},
                        {"file", place.file},
                        {"line", place.line},

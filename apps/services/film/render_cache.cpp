@@ -136,10 +136,10 @@ std::string InputFingerprints::of(const candela::SceneDraft& draft) {
     return fingerprint(all);
 }
 
-Recorded recorded(const fs::path& picture, const std::string& inputs, Links links) {
+CacheState recorded(const fs::path& picture, const std::string& inputs, Links links) {
     const auto record = record_text_of(picture);
-    if (!record || !has_recorded_size(picture, *record, links)) return Recorded::missing;
-    return record->starts_with(fmt::format("inputs {}\n", inputs)) ? Recorded::made : Recorded::other;
+    if (!record || !has_recorded_size(picture, *record, links)) return CacheState::missing;
+    return record->starts_with(fmt::format("inputs {}\n", inputs)) ? CacheState::made : CacheState::other;
 }
 
 bool is_recorded(const fs::path& picture) {
@@ -149,7 +149,7 @@ bool is_recorded(const fs::path& picture) {
 
 bool is_up_to_date(const fs::path& picture, const std::string& inputs, Links links) {
     // Other inputs, another size, or no record: there is no need to read the picture.
-    if (recorded(picture, inputs, links) != Recorded::made) return false;
+    if (recorded(picture, inputs, links) != CacheState::made) return false;
     const auto is = record_text(picture, inputs, links);
     return is && record_text_of(picture) == is;
 }

@@ -29,13 +29,13 @@ class InputFingerprints {
 };
 
 /// The state of a picture according to its record and its size, without reading its contents.
-enum class Recorded {
+enum class CacheState {
     missing,  // no picture or no record, or the picture's size has changed
     made,     // made from these inputs
     other     // made from other inputs
 };
 /// `links`: whether the picture may be a link, because the user chose its name.
-Recorded recorded(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);
+CacheState recorded(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);
 
 /// Like recorded(), for a picture whose name the user chose, whatever it was made from.
 bool is_recorded(const std::filesystem::path& picture);

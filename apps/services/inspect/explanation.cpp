@@ -8,14 +8,14 @@
 
 import candela.api;
 
-using candela::CompiledScene;
-using candela::FragmentProbe;
+using candela::InspectedFragment;
 using candela::LightTrace;
 using candela::Object;
 using candela::ParamValue;
 using candela::PluginDescriptor;
 using candela::PluginKind;
 using candela::PointTrace;
+using candela::RenderScene;
 using candela::Scene;
 using candela::Vec3;
 
@@ -58,7 +58,7 @@ Numbers shading_point_and_triangle(const PointTrace& point) {
 /// The values that an instance was made with, and the tables it computed from them.
 std::vector<ParamValue> values_of(const PluginDescriptor& plugin, const candela::ParamSet& parameters,
                                   candela::ColorEncoding encoding, const candela::Instance& instance) {
-    std::vector<ParamValue> values = parameters.delivered(encoding);
+    std::vector<ParamValue> values = parameters.runtime(encoding);
     for (const std::size_t i : plugin.kernel.members) values[i].list = instance.table(i);
     return values;
 }
@@ -79,14 +79,14 @@ std::vector<const PluginDescriptor*> plugins_explained_in(const Scene& scene, ca
     return plugins;
 }
 
-Explanation::Explanation(const Scene& of_scene, const CompiledScene& of_compiled, candela::Registry& registry,
+Explanation::Explanation(const Scene& of_scene, const RenderScene& of_compiled, candela::Registry& registry,
                          int at_x, int at_y, KernelRunner& kernels)
     : x(at_x),
       y(at_y),
       scene(of_scene),
       compiled(of_compiled),
-      pixel(candela::probe(of_compiled, at_x, at_y)) {
-    for (const FragmentProbe& fragment : pixel.fragments) add_calls(fragment, registry);
+      pixel(candela::inspect_pixel(of_compiled, at_x, at_y)) {
+    for (const InspectedFragment& fragment : pixel.fragments) add_calls(fragment, registry);
     values_ = kernels.run(calls_);
     why_no_steps_ = kernels.why_not();
 }
@@ -96,7 +96,7 @@ std::size_t Explanation::add(KernelCall call) {
     return calls_.size() - 1;
 }
 
-void Explanation::add_calls(const FragmentProbe& fragment, candela::Registry& registry) {
+void Explanation::add_calls(const InspectedFragment& fragment, candela::Registry& registry) {
     const Object& object = scene.objects[fragment.object];
     const auto encoding = scene.image.color_management;
     const auto descriptor = [&](PluginKind kind, const std::string& name) {
@@ -144,7 +144,7 @@ const std::vector<KernelValue>& Explanation::reflection_steps(const LightTrace& 
 
 std::optional<double> Explanation::kernel_difference() const {
     std::optional<double> largest;
-    for (const FragmentProbe& fragment : pixel.fragments) {
+    for (const InspectedFragment& fragment : pixel.fragments) {
         for (const PointTrace& point : fragment.points) {
             const double scale = std::max({point.intensity.x, point.intensity.y, point.intensity.z, 1e-3f});
             for (const LightTrace& light : point.lights) {

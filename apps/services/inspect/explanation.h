@@ -22,13 +22,13 @@ class Explanation {
   public:
     /// Probes pixel (x, y) of a compiled scene, and runs the kernels of the visible objects' models, which
     /// are among plugins_explained_in(scene). All arguments must outlive this.
-    Explanation(const candela::Scene& scene, const candela::CompiledScene& compiled,
+    Explanation(const candela::Scene& scene, const candela::RenderScene& compiled,
                 candela::Registry& registry, int x, int y, KernelRunner& kernels);
 
     int x = 0, y = 0;
     const candela::Scene& scene;
-    const candela::CompiledScene& compiled;
-    candela::PixelProbe pixel;
+    const candela::RenderScene& compiled;
+    candela::InspectedPixel pixel;
 
     /// The kernel's values for the normal of a point, for the light arriving there, and for its reflection;
     /// empty if the model has no kernel, or kernels cannot be run.
@@ -44,7 +44,7 @@ class Explanation {
 
   private:
     std::size_t add(KernelCall call);
-    void add_calls(const candela::FragmentProbe& fragment, candela::Registry& registry);
+    void add_calls(const candela::InspectedFragment& fragment, candela::Registry& registry);
 
     struct CallsOfLight {
         const candela::LightTrace* trace;

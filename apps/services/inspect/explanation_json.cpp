@@ -8,7 +8,7 @@
 
 import candela.api;
 
-using candela::FragmentProbe;
+using candela::InspectedFragment;
 using candela::LightTrace;
 using candela::PointTrace;
 using candela::Vec3;
@@ -98,7 +98,7 @@ Json json_of(const Explanation& e, const PointTrace& point, const std::string& r
             {"I", json_of(point.intensity)}};
 }
 
-Json json_of(const Explanation& e, const FragmentProbe& fragment) {
+Json json_of(const Explanation& e, const InspectedFragment& fragment) {
     const candela::Object& object = e.scene.objects[fragment.object];
     Json points = Json::array();
     for (const PointTrace& point : fragment.points)
@@ -120,7 +120,7 @@ Json json_of(const Explanation& e, const FragmentProbe& fragment) {
 
 std::string explanation_json(const Explanation& e, JsonLayout layout) {
     Json fragments = Json::array();
-    for (const FragmentProbe& fragment : e.pixel.fragments) fragments.push_back(json_of(e, fragment));
+    for (const InspectedFragment& fragment : e.pixel.fragments) fragments.push_back(json_of(e, fragment));
     const bool is_srgb = e.compiled.image.color_management == candela::ColorEncoding::srgb;
     Json encoded = Json::array();
     for (const float channel : {e.pixel.intensity.x, e.pixel.intensity.y, e.pixel.intensity.z}) {

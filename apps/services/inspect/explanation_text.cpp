@@ -11,7 +11,7 @@
 import candela.api;
 import candela.util;
 
-using candela::FragmentProbe;
+using candela::InspectedFragment;
 using candela::LightTrace;
 using candela::PointTrace;
 using candela::Vec3;
@@ -49,7 +49,7 @@ class Writer {
         const auto& bytes = e_.pixel.bytes;
         line(0, fmt::format("pixel {},{} of {} x {}: {} {} {}", e_.x, e_.y, image.width, image.height,
                             bytes[0], bytes[1], bytes[2]));
-        for (const FragmentProbe& fragment : e_.pixel.fragments) write(fragment);
+        for (const InspectedFragment& fragment : e_.pixel.fragments) write(fragment);
         if (e_.pixel.background_weight > 0)
             value(0, "background", e_.pixel.background,
                   e_.pixel.background_weight < 1
@@ -75,7 +75,7 @@ class Writer {
         line(indent, fmt::format("{} = {}{}{}", name, text_of(v), remark.empty() ? "" : "  ", remark));
     }
 
-    void write(const FragmentProbe& fragment) {
+    void write(const InspectedFragment& fragment) {
         const candela::Object& object = e_.scene.objects[fragment.object];
         line(0,
              fmt::format("object {}, {}: triangle {}, barycentric {}{}", object.label, object.shape.name,

@@ -72,13 +72,13 @@ TaskState state_of(const JobPlan& plan, const JobTask& task, std::size_t number,
     TaskState state{.name = task.name, .files = task.files.size(), .journal = {}, .why = {}};
     const JobFile& whole = plan.whole;
     const bool is_whole = !whole.path.empty() && recorded(plan.directory / whole.path, whole.inputs,
-                                                          Links::followed) == Recorded::made;
+                                                          Links::followed) == CacheState::made;
     if (is_whole) state.files_done = state.files;
     for (const JobFile& file : task.files) {
         if (is_whole) break;
-        const Recorded is = recorded(plan.directory / file.path, file.inputs, Links::not_followed);
-        if (is == Recorded::made) ++state.files_done;
-        if (is == Recorded::other) ++state.files_other;
+        const CacheState is = recorded(plan.directory / file.path, file.inputs, Links::not_followed);
+        if (is == CacheState::made) ++state.files_done;
+        if (is == CacheState::other) ++state.files_other;
     }
     if (state.files_done == state.files) {
         state.kind = Kind::done;

@@ -36,9 +36,9 @@ class PlacedLight {
                                     "angle nor a distance",
                                     model.name));
         const auto& parameters = registry.require(candela::PluginKind::light, model.name).manifest.parameters;
-        const auto delivered = model.parameters.delivered(scene.image.color_management);
+        const auto runtime = model.parameters.runtime(scene.image.color_management);
         for (std::size_t i = 0; i < parameters.size(); ++i) {
-            const float* const number = delivered[i].number;
+            const float* const number = runtime[i].number;
             if (parameters[i].name == "position") position_ = {number[0], number[1], number[2]};
             if (parameters[i].name == "direction")
                 axis_ = candela::normalized({number[0], number[1], number[2]});

@@ -23,11 +23,11 @@ double rounded_up(double x) {
     return 10 * power;
 }
 
-struct Place {
+struct PlotPoint {
     double x, y;
 };
 
-Place place_at(double degrees, double radius) {
+PlotPoint point_at(double degrees, double radius) {
     const double angle = degrees * std::numbers::pi / 180;
     return {k_center_x + radius * std::sin(angle), k_center_y - radius * std::cos(angle)};
 }
@@ -72,7 +72,7 @@ class Diagram {
                 k_center_x + radius, k_center_y + 16, value);
         }
         for (int degrees = -90; degrees <= 90; degrees += 15) {
-            const Place end = place_at(degrees, k_radius), label = place_at(degrees, k_radius + 16);
+            const PlotPoint end = point_at(degrees, k_radius), label = point_at(degrees, k_radius + 16);
             text += fmt::format(
                 "<path class=\"line\" stroke-width=\"0.5\" d=\"M{} {} L{:.1f} {:.1f}\"/>\n"
                 "<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\" font-size=\"11\">{}°</text>\n",
@@ -83,9 +83,9 @@ class Diagram {
 
     /// An arrow for the incoming light, and a dashed line for the mirror direction.
     std::string light() const {
-        const Place from = place_at(-incidence_, k_radius), head = place_at(-incidence_, 26);
-        const Place left = place_at(-incidence_ - 12, 42), right = place_at(-incidence_ + 12, 42);
-        const Place mirror = place_at(incidence_, k_radius);
+        const PlotPoint from = point_at(-incidence_, k_radius), head = point_at(-incidence_, 26);
+        const PlotPoint left = point_at(-incidence_ - 12, 42), right = point_at(-incidence_ + 12, 42);
+        const PlotPoint mirror = point_at(incidence_, k_radius);
         return fmt::format(
             "<path class=\"line\" stroke-width=\"2\" d=\"M{:.1f} {:.1f} L{:.1f} {:.1f} M{:.1f} {:.1f} "
             "L{:.1f} {:.1f} "
@@ -101,7 +101,7 @@ class Diagram {
         for (std::size_t i = 0; i < lobes_.size(); ++i) {
             std::string points;
             for (const LobePoint& point : lobes_[i].points) {
-                const Place place = place_at(point.angle, radius_of(point.intensity()));
+                const PlotPoint place = point_at(point.angle, radius_of(point.intensity()));
                 points += fmt::format("{}{:.2f},{:.2f}", points.empty() ? "" : " ", place.x, place.y);
             }
             text += fmt::format("<polyline {} points=\"{}\"/>\n", curve_style(i), points);

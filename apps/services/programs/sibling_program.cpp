@@ -17,7 +17,7 @@ fs::path beside_command(const char* relative) {
     return fs::canonical("/proc/self/exe").parent_path().parent_path() / relative;
 }
 
-fs::path helper(const char* program, const char* what, const char* where_from) {
+fs::path sibling_program(const char* program, const char* what, const char* where_from) {
     const fs::path file = beside_command("lib/candela") / program;
     if (!fs::exists(file)) {
         throw Error(ErrorCategory::failure, fmt::format("{} is not installed: '{}' does not exist ({})", what,
@@ -27,14 +27,16 @@ fs::path helper(const char* program, const char* what, const char* where_from) {
 }
 
 fs::path comparing_program() {
-    return helper("candela-diff", "the program that compares pictures", "package candela-openimageio");
+    return sibling_program("candela-diff", "the program that compares pictures",
+                           "package candela-openimageio");
 }
 
 fs::path conformance_kit() {
-    return helper("candela-conformance", "the conformance kit", "package candela-dev, or a build with tests");
+    return sibling_program("candela-conformance", "the conformance kit",
+                           "package candela-dev, or a build with tests");
 }
 
-void become_helper(const fs::path& file, const std::vector<std::string>& arguments) {
+void exec_sibling(const fs::path& file, const std::vector<std::string>& arguments) {
     std::vector<std::string> words{file.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;

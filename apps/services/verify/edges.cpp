@@ -92,14 +92,14 @@ using Intensities = std::vector<float>;
 /// Renders pictures of a scene with one sample per pixel. Restores the scene on destruction.
 class Mover {
   public:
-    Mover(candela::CompiledScene& scene, const candela::Film& reference)
+    Mover(candela::RenderScene& scene, const candela::Film& reference)
         : scene_(scene),
           reference_(reference),
           own_observer_(scene.observer),
           observer_(candela::fitted(scene.observer, reference.width(), reference.height())),
           samples_(scene.image.samples) {
         scene_.image.samples = 1;
-        for (candela::LitSource& source : scene_.lights) {
+        for (candela::RenderLight& source : scene_.lights) {
             auto turned = std::make_unique<TurnedLight>(std::move(source.light), way_);
             turned_.push_back(turned.get());
             source.light = std::move(turned);
@@ -128,7 +128,7 @@ class Mover {
     }
 
   private:
-    candela::CompiledScene& scene_;
+    candela::RenderScene& scene_;
     const candela::Film& reference_;
     Observer own_observer_, observer_;
     int samples_;
@@ -144,7 +144,7 @@ float level_of(float intensity, candela::ColorEncoding encoding) {
 
 }  // namespace
 
-std::vector<float> unrounded_picture(const candela::CompiledScene& scene) {
+std::vector<float> unrounded_picture(const candela::RenderScene& scene) {
     const auto encoding = scene.image.color_management;
     candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real, encoding);
     candela::render(scene, film, {});
@@ -153,7 +153,7 @@ std::vector<float> unrounded_picture(const candela::CompiledScene& scene) {
     return levels;
 }
 
-Sensitivity sensitivity_of(candela::CompiledScene& scene, const candela::Film& reference, float levels) {
+Sensitivity sensitivity_of(candela::RenderScene& scene, const candela::Film& reference, float levels) {
     const auto pattern = candela::sample_pattern(scene.image.samples);
     const auto encoding = scene.image.color_management;
     const auto expected = reference.view().bytes;

@@ -29,10 +29,10 @@ constexpr float edge_levels(double tolerance) {
 /// by an eighth of a pixel, or when light arrives from a direction that differs by 0.0002 radians. It is also
 /// an edge if it differs by that much from the mean over its samples, because Candela evaluates light once
 /// for each triangle in a pixel. `reference` is the 8-bit picture of `scene`; the scene is left unchanged.
-Sensitivity sensitivity_of(candela::CompiledScene& scene, const candela::Film& reference, float levels);
+Sensitivity sensitivity_of(candela::RenderScene& scene, const candela::Film& reference, float levels);
 
 /// Candela's picture before rounding: 0 to 255, encoded as in a file.
-std::vector<float> unrounded_picture(const candela::CompiledScene& scene);
+std::vector<float> unrounded_picture(const candela::RenderScene& scene);
 
 /// Edges as a picture, with white for edges.
 candela::Film mask_of(const std::vector<bool>& edges, int width, int height);

@@ -49,11 +49,11 @@ class CANDELA_EXPORT Light : public Instance {
     /// Describes sample `sample` as data, if possible: the data then sends the same to each receiver as
     /// illuminate(), up to rounding, and reflection models may evaluate it without calling the light again.
     /// Returns false if data cannot express it.
-    virtual bool describe(int sample, PunctualLight& light) const;
+    virtual bool as_punctual(int sample, PunctualLight& light) const;
 
     /// Returns what illuminate_ambient() writes, if that is the same for all receivers; otherwise returns
     /// false.
-    virtual bool describe_ambient(Rgb& ambient) const;
+    virtual bool as_ambient(Rgb& ambient) const;
 };
 
 }  // namespace candela

@@ -16,7 +16,7 @@ namespace candela {
 struct SurfaceBatch {
     std::size_t count = 0;
     ConstVec3Span normal;         // N
-    ConstVec3Span to_observer;    // V; null in reflect_punctual()
+    ConstVec3Span to_observer;    // V; null in reflect_all_lights()
     ConstVec3Span tangent;        // along dp/du, orthogonal to N; null unless needs_tangent()
     Rgb color;                    // C_o, the object's colour, 0 to 1
     ConstVec3Span position{};     // metres
@@ -48,9 +48,9 @@ struct ExitBatch {
 
 /// The world around an object. Light stays local (CA AS2): other objects are not seen. Owned by the host;
 /// used for one batch, by one thread.
-class CANDELA_EXPORT Surroundings {
+class CANDELA_EXPORT Environment {
   public:
-    virtual ~Surroundings();
+    virtual ~Environment();
 
     /// Writes the intensity, per channel, that arrives from infinity in the directions `towards` (unit
     /// vectors).
@@ -62,8 +62,8 @@ class CANDELA_EXPORT Surroundings {
 
     /// Follows rays inside the object from `origin`, on its surface, along `direction` (unit vectors) to the
     /// points where they leave it. Arrays do not alias.
-    virtual void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
-                       const ExitBatch& exit) = 0;
+    virtual void trace_exit(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+                            const ExitBatch& exit) = 0;
 };
 
 /// A reflection model with one set of parameters: a material. Any thread, any batch size from 1; arrays have
@@ -94,18 +94,18 @@ class CANDELA_EXPORT ReflectionModel : public Instance {
     /// Writes all that each point reflects of `lighting`: up to rounding, the sum of reflect_ambient() and,
     /// for each light, reflect(). Models made of kernel functions implement it, which avoids writing and
     /// reading vectors for each light. Returns false, and writes nothing, if the model does not support it.
-    /// Never called for models that show their surroundings.
-    virtual bool reflect_punctual(const SurfaceBatch& surface, const PunctualLighting& lighting,
-                                  const Vec3Span& intensity) const;
+    /// Never called for models that show their environment.
+    virtual bool reflect_all_lights(const SurfaceBatch& surface, const PunctualLighting& lighting,
+                                    const Vec3Span& intensity) const;
 
-    /// Whether the surroundings are visible in the surface or through it, so that show_surroundings() is
+    /// Whether the environment are visible in the surface or through it, so that show_environment() is
     /// called.
     virtual bool shows_surroundings() const noexcept { return false; }
 
-    /// Adds to `reflected.specular` what each point shows of the surroundings, by mirroring and refraction
+    /// Adds to `reflected.specular` what each point shows of the environment, by mirroring and refraction
     /// (CA LC1).
-    virtual void show_surroundings(const SurfaceBatch& surface, Surroundings& surroundings,
-                                   const ReflectedBatch& reflected) const;
+    virtual void show_environment(const SurfaceBatch& surface, Environment& environment,
+                                  const ReflectedBatch& reflected) const;
 };
 
 }  // namespace candela

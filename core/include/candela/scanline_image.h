@@ -42,9 +42,9 @@ class CANDELA_EXPORT RandomAccessSink : public ByteSink {
 
 /// Writes one or more formats row by row. The class that implements ImageFormat may derive from it; the host
 /// finds out with a dynamic_cast. Any thread.
-class CANDELA_EXPORT RowFormat {
+class CANDELA_EXPORT ScanlineImageFormat {
   public:
-    virtual ~RowFormat();
+    virtual ~ScanlineImageFormat();
 
     /// Whether the format of that extension can be written row by row.
     virtual bool writes_rows(const char* extension) const = 0;

@@ -18,9 +18,9 @@ namespace candela {
 struct ExportedValues {
     std::span<const ParamValue> written;  // as written in a scene: degrees, colours 0-255; a file as its path
     std::span<const ParamValue>
-        delivered;  // as an instance receives them: radians, intensities, unit directions. For a parameter
-                    // that is a Table of the kernel, `list` is its numbers, a part of ExportedScene::tables,
-                    // and `integer` their offset in it
+        runtime;  // as an instance receives them: radians, intensities, unit directions. For a parameter
+                  // that is a Table of the kernel, `list` is its numbers, a part of ExportedScene::tables,
+                  // and `integer` their offset in it
 };
 
 /// A plugin that the scene uses or may switch to. Its descriptor lives as long as the process and has the
@@ -45,8 +45,8 @@ struct ExportedLight {
     const char* label = "";  // as messages name it: 'lamp', in quotes, or number 2
     std::size_t model = 0;   // index into ExportedScene::light_models
     ExportedValues values{};
-    bool is_data = false;  // whether the light describes itself as data (Light::describe()), in the next two
-                           // members
+    bool is_data = false;  // whether the light describes itself as data (Light::as_punctual()), in the next
+                           // two members
     std::span<const PunctualLight> punctual{};  // one per sample
     Rgb ambient{};                              // the part that comes from everywhere
 };

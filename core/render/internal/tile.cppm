@@ -8,7 +8,7 @@ module;
 
 module candela.render:tile;
 
-import :compiled_scene;
+import :render_scene;
 import :film;
 import :sparse_set;
 import candela.api;
@@ -38,7 +38,7 @@ class TileShader {
 
     /// Sets the scene for the following calls and what is shown of it (see RenderOptions), and resets the
     /// counts.
-    void begin(const CompiledScene& scene, const ProjectedScene& projected, Term term = Term::intensity,
+    void begin(const RenderScene& scene, const ProjectedScene& projected, Term term = Term::intensity,
                std::optional<std::size_t> light = {});
 
     Term term() const { return term_; }
@@ -65,7 +65,7 @@ class TileShader {
     void shade_points(std::uint32_t object, const Vec3Span& intensity);
     void accumulate(std::span<const FragmentRun> runs, const ConstVec3Span& intensity);
 
-    const CompiledScene* scene_ = nullptr;
+    const RenderScene* scene_ = nullptr;
     const ProjectedScene* projected_ = nullptr;
     Term term_ = Term::intensity;
     bool has_background_ = true;
@@ -96,12 +96,11 @@ Camera camera_of(const Observer& observer, int width, int height);
 
 /// Projects a scene's meshes and sorts their triangles into the tiles that overlap these rows of the picture.
 /// Throws Error.
-void project_scene(const CompiledScene& scene, int width, int height, RowRange rows, int tile_size,
-                   int samples, ProjectedScene& projected);
+void project_scene(const RenderScene& scene, int width, int height, RowRange rows, int tile_size, int samples,
+                   ProjectedScene& projected);
 
 /// The value of all pixels that show no object, if it is the same for all.
-std::optional<Rgb> uniform_background(const CompiledScene& scene, Term term,
-                                      std::optional<std::size_t> light);
+std::optional<Rgb> uniform_background(const RenderScene& scene, Term term, std::optional<std::size_t> light);
 
 /// Fills the tiles of a row that no triangle comes near with that background, and sets `is_done`, by column.
 void fill_empty_tiles(const ProjectedScene& projected, int row, Rgb background, Film& film,
@@ -112,6 +111,6 @@ void find_visible(const ProjectedScene& projected, int tile, TileVisibility& vis
                   VisibleTile& visible);
 
 /// Shades a tile's fragments and stores its pixels.
-void shade_tile(const CompiledScene& scene, const VisibleTile& visible, TileWorker& worker, Film& film);
+void shade_tile(const RenderScene& scene, const VisibleTile& visible, TileWorker& worker, Film& film);
 
 }  // namespace candela

@@ -19,7 +19,7 @@ namespace candela {
 
 /// The contents of the files, the includes and the settings combined.
 struct MergedDocument {
-    SourcePlace place;                         // of the first file
+    SourceLocation place;                      // of the first file
     TableNode root;                            // as if everything were in one file, with `include` resolved
     std::vector<std::filesystem::path> files;  // absolute
 };
@@ -48,11 +48,11 @@ class ElementIndex {
 
 /// Sets the value at a setting's path. Returns false if the path leads nowhere, which is reported at `place`;
 /// `place` also becomes the key's position. `index`: that of `root`, for many calls.
-bool set_value(TableNode& root, std::string_view path, Node value, const SourcePlace& place,
+bool set_value(TableNode& root, std::string_view path, Node value, const SourceLocation& place,
                Diagnostics& diagnostics, const ElementIndex* index = nullptr);
 
 /// Like the above, for a path that parts_of() has split.
-bool set_value(TableNode& root, std::vector<std::string> parts, Node value, const SourcePlace& place,
+bool set_value(TableNode& root, std::vector<std::string> parts, Node value, const SourceLocation& place,
                Diagnostics& diagnostics, const ElementIndex* index = nullptr);
 
 std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics);

@@ -27,13 +27,13 @@ class ModelChooser {
 
     /// The name is empty if there is none, which has been reported.
     Model shading_for(const TableNode& object);
-    Model reflection_for(const TableNode& object, const std::string& label, const SourcePlace& place);
+    Model reflection_for(const TableNode& object, const std::string& label, const SourceLocation& place);
 
   private:
     /// A model's name, and where it stands.
     struct Named {
         std::string name;
-        SourcePlace place;
+        SourceLocation place;
     };
     std::optional<Named> named(const std::string& table, const std::optional<ModelSetting>& setting);
     std::optional<Named> named_by(const TableNode& object, const std::string& key,

@@ -43,7 +43,7 @@ class SceneTables {
     SceneTables(const MergedDocument& document, Registry& registry, Diagnostics& diagnostics);
 
     const TableNode& root() const { return root_; }
-    const SourcePlace& whole() const { return whole_; }
+    const SourceLocation& whole() const { return whole_; }
     Registry& registry() { return registry_; }
     Diagnostics& diagnostics() { return diagnostics_; }
 
@@ -56,13 +56,13 @@ class SceneTables {
     /// Whether the table is valid as such, or missing, and all of these keys have valid values.
     bool has_valid(const std::string& name, std::initializer_list<std::string_view> keys);
     /// The installed plugin of that name, or null, with a message at `place`.
-    const PluginFile* known(PluginKind kind, const std::string& name, const SourcePlace& place);
+    const PluginFile* known(PluginKind kind, const std::string& name, const SourceLocation& place);
     /// A plugin's parameters, including the relations between them.
     ParamSet read_plugin(const TableNode& table, const PluginFile& plugin, const TableContext& context);
 
   private:
     const TableNode& root_;
-    SourcePlace whole_;
+    SourceLocation whole_;
     Registry& registry_;
     Diagnostics& diagnostics_;
     std::map<std::string, const TableNode*> singles_;

@@ -21,7 +21,7 @@ namespace candela {
 
 namespace {
 
-char character_at(const SourceText& source, const SourcePlace& place) {
+char character_at(const SourceText& source, const SourceLocation& place) {
     const std::size_t at = source.offset_of(place);
     return at < source.text().size() ? source.text()[at] : '\0';
 }
@@ -136,7 +136,7 @@ SourceText::SourceText(std::string text)
         line_begins_.push_back(at + 1);
 }
 
-std::size_t SourceText::offset_of(const SourcePlace& place) const {
+std::size_t SourceText::offset_of(const SourceLocation& place) const {
     const auto line = static_cast<std::size_t>(std::max(place.line, 1) - 1);
     std::size_t at = line < line_begins_.size() ? line_begins_[line] : text_.size();
     const std::string_view text = text_;
@@ -154,7 +154,7 @@ TextEdit replacement(const SourceText& text, const Node& value, const std::strin
     return {begin, end_of_value(text.text(), begin), by};
 }
 
-TextEdit insertion(const SourceText& source, const TableNode& table, const SourcePlace* header,
+TextEdit insertion(const SourceText& source, const TableNode& table, const SourceLocation* header,
                    const Entries& entries) {
     const std::string_view text = source.text();
     if (header != nullptr && character_at(source, *header) == '{')

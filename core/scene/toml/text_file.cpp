@@ -64,7 +64,7 @@ bool is_utf16(std::string_view text) {
 
 }  // namespace
 
-SourcePlace place_at(std::string_view text, std::size_t offset, const std::string& shown_name) {
+SourceLocation place_at(std::string_view text, std::size_t offset, const std::string& shown_name) {
     const std::string_view before = text.substr(0, offset);
     const auto line = 1 + std::ranges::count(before, '\n');
     const std::size_t begin = before.rfind('\n') + 1;  // 0 on the first line
@@ -115,7 +115,7 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
 std::optional<std::string> text_of_bytes(std::string text, const std::string& shown_name,
                                          std::uintmax_t& bytes_left, Diagnostics& diagnostics) {
     // Problems with a file as a whole are shown at its beginning, where an editor can open it.
-    const SourcePlace place = place_at({}, 0, shown_name);
+    const SourceLocation place = place_at({}, 0, shown_name);
     const auto no_scene = [&](const std::string& message, const std::string& hint = {}) {
         diagnostics.error(place, message, hint);
         return std::nullopt;

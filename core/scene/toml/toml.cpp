@@ -28,8 +28,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-SourcePlace place_of(const toml::source_region& region, const std::string& file) {
-    SourcePlace place{file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column), 0};
+SourceLocation place_of(const toml::source_region& region, const std::string& file) {
+    SourceLocation place{file, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column), 0};
     if (region.end.line == region.begin.line && region.end.column > region.begin.column) {
         place.length = static_cast<int>(region.end.column - region.begin.column);
     }
@@ -98,7 +98,7 @@ bool is_out_of_memory(std::string_view description) {
 
 void report(const toml::parse_error& problem, std::string_view text, const std::string& shown_name,
             Diagnostics& diagnostics) {
-    SourcePlace place = place_of(problem.source(), shown_name);
+    SourceLocation place = place_of(problem.source(), shown_name);
     if (is_out_of_memory(problem.description())) throw std::bad_alloc();
     const std::string_view line = line_of(text, place.line);
     // At the end of the file toml++ counts the last line ending as a character.
@@ -117,7 +117,7 @@ bool can_be_parsed(std::string_view text, const std::string& shown_name, std::si
     }
     const auto excess = first_excess(text, values_left);
     if (!excess) return true;
-    const SourcePlace place = place_at(text, excess->offset, shown_name);
+    const SourceLocation place = place_at(text, excess->offset, shown_name);
     // It may be too deep only because an earlier bracket was not closed.
     constexpr std::size_t k_worth_parsing = 1u << 20;
     try {
@@ -220,7 +220,8 @@ std::string as_written(const Node& node, const Diagnostics& diagnostics) {
     return std::string(skip(node.place.length));
 }
 
-std::optional<Node> parse_value(std::string_view text, const SourcePlace& place, Diagnostics& diagnostics) {
+std::optional<Node> parse_value(std::string_view text, const SourceLocation& place,
+                                Diagnostics& diagnostics) {
     Node result;
     result.place = place;
     const bool is_bare_word = !text.empty() &&

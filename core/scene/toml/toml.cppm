@@ -37,7 +37,7 @@ using ArrayNode = std::vector<Node>;
 struct DateNode {};
 
 struct Node {
-    SourcePlace place;
+    SourceLocation place;
     std::variant<bool, std::int64_t, double, std::string, DateNode, ArrayNode, TableNode> value;
 
     const TableNode* table() const { return std::get_if<TableNode>(&value); }
@@ -48,7 +48,7 @@ struct Node {
 
 struct TableNode::Entry {
     std::string key;
-    SourcePlace key_place;
+    SourceLocation key_place;
     Node node;
 };
 
@@ -86,7 +86,7 @@ CANDELA_EXPORT std::optional<TableNode> parse_document(std::string_view text, co
                                                        Diagnostics& diagnostics);
 
 /// Parses a value as written after a `=`; bare words are strings. Reports problems at `place`.
-CANDELA_EXPORT std::optional<Node> parse_value(std::string_view text, const SourcePlace& place,
+CANDELA_EXPORT std::optional<Node> parse_value(std::string_view text, const SourceLocation& place,
                                                Diagnostics& diagnostics);
 
 /// Values as TOML: a string in double quotes, with escapes (throws Error if it is not UTF-8); a number in as
@@ -113,7 +113,7 @@ class CANDELA_EXPORT SourceText {
     /// "\r\n" if there is one, else "\n".
     std::string_view line_break() const noexcept { return line_break_; }
     /// The offset of a line and a column, which count from 1, in characters.
-    std::size_t offset_of(const SourcePlace& place) const;
+    std::size_t offset_of(const SourceLocation& place) const;
 
   private:
     std::string text_;
@@ -131,8 +131,8 @@ CANDELA_EXPORT TextEdit replacement(const SourceText& text, const Node& value, c
 using Entries = std::vector<std::pair<std::string, std::string>>;
 
 /// Adds entries after the last one of a table, or of the document, which has no header.
-CANDELA_EXPORT TextEdit insertion(const SourceText& text, const TableNode& table, const SourcePlace* header,
-                                  const Entries& entries);
+CANDELA_EXPORT TextEdit insertion(const SourceText& text, const TableNode& table,
+                                  const SourceLocation* header, const Entries& entries);
 
 /// Adds a table at the end.
 CANDELA_EXPORT TextEdit new_table(const SourceText& text, const std::string& name, const Entries& entries);

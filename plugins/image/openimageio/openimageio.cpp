@@ -237,7 +237,7 @@ void write_file(OIIO::ImageSpec& spec, const char* extension, candela::ByteSink&
 }
 
 /// All formats that OpenImageIO writes.
-class OpenImageIo final : public candela::ImageFormat, public candela::RowFormat {
+class OpenImageIo final : public candela::ImageFormat, public candela::ScanlineImageFormat {
   public:
     explicit OpenImageIo(const NoParams&) {}
 

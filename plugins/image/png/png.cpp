@@ -88,7 +88,7 @@ struct PngOptions {
     std::int32_t compression;
 };
 
-class Png final : public candela::ImageFormat, public candela::RowFormat {
+class Png final : public candela::ImageFormat, public candela::ScanlineImageFormat {
   public:
     explicit Png(const PngOptions& options) : options_(options) {}
 

@@ -19,7 +19,7 @@ using namespace candela::sdk;
 namespace {
 
 /// Two formats that take a dozen lines to write and a few more to read.
-class Pnm final : public candela::ImageFormat, public candela::RowFormat {
+class Pnm final : public candela::ImageFormat, public candela::ScanlineImageFormat {
   public:
     explicit Pnm(const NoParams&) {}
 

@@ -21,7 +21,7 @@ Vec3 direction(Double3 d) {
 
 /// The world around a perfect ball of radius 1 at the origin: rays within it are followed in double
 /// precision.
-class BallSurroundings final : public candela::Surroundings {
+class BallEnvironment final : public candela::Environment {
   public:
     std::function<double(Double3)> intensity = [](Double3) { return 1.0; };
     float most = 1;                 // of what it returns
@@ -38,8 +38,8 @@ class BallSurroundings final : public candela::Surroundings {
     }
 
     float max_intensity() const noexcept override { return most; }
-    void leave(std::size_t count, const candela::ConstVec3Span& origin, const candela::ConstVec3Span& ray,
-               const candela::ExitBatch& exit) override {
+    void trace_exit(std::size_t count, const candela::ConstVec3Span& origin,
+                    const candela::ConstVec3Span& ray, const candela::ExitBatch& exit) override {
         followed.push_back(exact(ray[0]));
         for (std::size_t i = 0; i < count; ++i) {
             const Double3 p = exact(origin[i]), d = exact(ray[i]);
@@ -54,7 +54,7 @@ class BallSurroundings final : public candela::Surroundings {
 
 /// A surface that only the first ray within meets, at a given angle. Only the second direction looked in,
 /// where that ray leaves, is visible.
-class Wall final : public candela::Surroundings {
+class Wall final : public candela::Environment {
   public:
     explicit Wall(double angle) : angle_(angle) {}
 
@@ -63,8 +63,8 @@ class Wall final : public candela::Surroundings {
         seen.set(0, {value, value, value});
     }
     float max_intensity() const noexcept override { return 1; }
-    void leave(std::size_t, const candela::ConstVec3Span& origin, const candela::ConstVec3Span& ray,
-               const candela::ExitBatch& exit) override {
+    void trace_exit(std::size_t, const candela::ConstVec3Span& origin, const candela::ConstVec3Span& ray,
+                    const candela::ExitBatch& exit) override {
         const Double3 d = exact(ray[0]);
         const Double3 aside = unit(cross(d, {0, 1, 0}));
         exit.position.set(0, origin[0]);
@@ -80,19 +80,19 @@ class Wall final : public candela::Surroundings {
 
 /// The light that the observer sees from the ball at the point with normal +z, looking at `angle` to it from
 /// +x.
-Vec3 seen_at(const ReflectionModel& model, double angle, candela::Surroundings& around,
+Vec3 seen_at(const ReflectionModel& model, double angle, candela::Environment& around,
              candela::Rgb color = {1, 1, 1}) {
     float normal[] = {0, 0, 1}, position[] = {0, 0, 1};
     float observer[] = {static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
     float sum[9] = {};
     const auto span = [](float* v) { return candela::Vec3Span{v, v + 1, v + 2}; };
-    model.show_surroundings({.count = 1,
-                             .normal = span(normal),
-                             .to_observer = span(observer),
-                             .tangent = {},
-                             .color = color,
-                             .position = span(position)},
-                            around, {span(sum), span(sum + 3), span(sum + 6)});
+    model.show_environment({.count = 1,
+                            .normal = span(normal),
+                            .to_observer = span(observer),
+                            .tangent = {},
+                            .color = color,
+                            .position = span(position)},
+                           around, {span(sum), span(sum + 3), span(sum + 6)});
     CHECK((sum[0] == 0 && sum[1] == 0 && sum[2] == 0 && sum[3] == 0 && sum[4] == 0 && sum[5] == 0));
     return {sum[6], sum[7], sum[8]};
 }
@@ -105,7 +105,7 @@ std::unique_ptr<ReflectionModel> dielectric(double ior, std::int64_t internal_re
 
 /// The mirrored share: something is seen only towards the mirror image, which is on the -x side.
 double mirrored_share(double ior, double angle) {
-    BallSurroundings around;
+    BallEnvironment around;
     const Double3 mirror{-std::sin(angle), 0, std::cos(angle)};
     around.intensity = [&](Double3 towards) { return length(towards - mirror) < 1e-3 ? 1.0 : 0.0; };
     return static_cast<double>(seen_at(*dielectric(ior, 0), angle, around).x);
@@ -148,7 +148,7 @@ TEST_CASE("reflection/dielectric obeys Snell's law: sin(theta_1) = n sin(theta_2
     for (const double ior : {1.0, 1.33, 1.5, 4.0}) {
         for (const double degrees : {0.0, 10.0, 45.0, 80.0}) {
             INFO("ior " << ior << ", " << degrees << " degrees");
-            BallSurroundings around;
+            BallEnvironment around;
             seen_at(*dielectric(ior), degrees * k_degree, around);
             const Double3 within = around.followed.at(0);
             CHECK(agree(-within.x * ior, std::sin(degrees * k_degree), 1e-5, 1e-6));
@@ -176,7 +176,7 @@ TEST_CASE(
     // Descartes (1637), Les Météores, discourse 8: an angle of 42 degrees to the shadow of one's head.
     double least = 360;
     for (double degrees = 0; degrees < 89; degrees += 0.25) {
-        BallSurroundings around;
+        BallEnvironment around;
         seen_at(*dielectric(4.0 / 3), degrees * k_degree, around);
         // Directions looked in: the mirror image, straight through, and once mirrored within.
         const Double3 view{-std::sin(degrees * k_degree), 0, -std::cos(degrees * k_degree)};
@@ -188,12 +188,12 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "reflection/dielectric loses no light: in surroundings of one intensity a clear ball cannot be seen") {
+    "reflection/dielectric loses no light: in environment of one intensity a clear ball cannot be seen") {
     for (const double ior : {1.0, 1.33, 2.42, 4.0}) {
         for (const std::int64_t within : {0, 1, 4, 16}) {
             for (double degrees = 0; degrees < 90; degrees += 6) {
                 INFO("ior " << ior << ", " << within << " reflections within, " << degrees << " degrees");
-                BallSurroundings around;
+                BallEnvironment around;
                 const Vec3 seen = seen_at(*dielectric(ior, within), degrees * k_degree, around);
                 CHECK(agree(seen, Vec3{1, 1, 1}, 2e-5));
             }
@@ -204,7 +204,7 @@ TEST_CASE(
 TEST_CASE("reflection/dielectric follows light until it can contribute less than 1/1024 of the result") {
     // Straight through glass, 4 % are mirrored each time: 0.04, 0.0016, 6e-5, 2.6e-6, 1e-7 ... of 0.96.
     const auto rays = [](float most) {
-        BallSurroundings around;
+        BallEnvironment around;
         around.most = most;
         seen_at(*dielectric(1.5, 16), 0, around);
         return around.followed.size();
@@ -222,7 +222,7 @@ TEST_CASE("reflection/dielectric shows the sum of all reflections within, to a t
             double expected = mirrored * behind, share = refracted * refracted;
             for (int within = 0; within < 40; ++within, share *= mirrored)
                 expected += share * (within % 2 == 0 ? ahead : behind);
-            BallSurroundings around;
+            BallEnvironment around;
             around.intensity = [&](Double3 towards) { return towards.z < 0 ? ahead : behind; };
             const Vec3 seen = seen_at(*dielectric(1.5, 16), 0, around);
             INFO("ahead " << ahead << ", behind " << behind);
@@ -231,8 +231,8 @@ TEST_CASE("reflection/dielectric shows the sum of all reflections within, to a t
     }
 }
 
-TEST_CASE("reflection/dielectric terminates in non-finite surroundings") {
-    BallSurroundings around;
+TEST_CASE("reflection/dielectric terminates in non-finite environment") {
+    BallEnvironment around;
     around.intensity = [](Double3) { return std::numeric_limits<double>::quiet_NaN(); };
     CHECK(std::isnan(seen_at(*dielectric(1.5), 0.3, around).x));
     Wall wall(std::numeric_limits<double>::quiet_NaN());
@@ -244,7 +244,7 @@ TEST_CASE(
     "that") {
     // Straight through the ball, 2 m, with one reflection within: F + (1 - F) T ((1 - F) + F T).
     for (const double depth : {0.5, 1.0, 3.0}) {
-        BallSurroundings around;
+        BallEnvironment around;
         const Vec3 seen = seen_at(*dielectric(1.5, 1, depth), 0, around, {0.25f, 0.5f, 1});
         const auto expected = [&](double color) {
             const double t = std::pow(color, 2 / depth);

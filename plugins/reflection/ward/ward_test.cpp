@@ -92,7 +92,7 @@ TEST_CASE(
         const auto scene = candela::read_scene(request, test_registry(), diagnostics);
         INFO(diagnostics_text(diagnostics, false));
         REQUIRE(scene.has_value());
-        const auto compiled = candela::compile(*scene, test_registry(), diagnostics);
+        const auto compiled = candela::build(*scene, test_registry(), diagnostics);
         REQUIRE(compiled.has_value());
         candela::Film film(96, 96, candela::PixelType::real, candela::ColorEncoding::none);
         candela::render(*compiled, film, {.threads = 1});

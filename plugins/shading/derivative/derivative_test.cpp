@@ -123,7 +123,7 @@ std::vector<float> rendered(const fs::path& file, const char* shading) {
     const auto scene = candela::read_scene(request, test_registry(), diagnostics);
     INFO(diagnostics_text(diagnostics, false));
     REQUIRE(scene.has_value());
-    const auto compiled = candela::compile(*scene, test_registry(), diagnostics);
+    const auto compiled = candela::build(*scene, test_registry(), diagnostics);
     REQUIRE(compiled.has_value());
     candela::Film film(scene->image.width, scene->image.height, candela::PixelType::real,
                        candela::ColorEncoding::none);

@@ -67,7 +67,7 @@ crease_angle = 0
 }
 
 /// 8-bit levels.
-std::vector<int> picture_of(const candela::CompiledScene& scene) {
+std::vector<int> picture_of(const candela::RenderScene& scene) {
     candela::Film film(scene.image.width, scene.image.height, candela::PixelType::byte,
                        candela::ColorEncoding::srgb);
     candela::render(scene, film, {.threads = 1});

@@ -109,8 +109,8 @@ std::string_view without_mark(std::string_view text) {
 }
 
 std::filesystem::path part_named(const std::filesystem::path& file, const std::filesystem::path& folder,
-                                 Reach reach) {
-    if (reach == Reach::anywhere) return folder / file;
+                                 FileScope reach) {
+    if (reach == FileScope::anywhere) return folder / file;
     const std::filesystem::path root = std::filesystem::weakly_canonical(folder.empty() ? "." : folder);
     std::filesystem::path real = std::filesystem::weakly_canonical(folder / file);
     const auto [end, unused] = std::ranges::mismatch(root, real);

@@ -43,12 +43,12 @@ using FileState = std::array<std::int64_t, 7>;
 FileState state_of(const std::filesystem::path& file);
 
 /// The files that a file may name as parts of itself.
-enum class Reach : bool { its_folder, anywhere };
+enum class FileScope : bool { its_folder, anywhere };
 
 /// The path of `file`, as named by a file in `folder`. Throws BadFile if `reach` does not allow its location
 /// after links are resolved.
 std::filesystem::path part_named(const std::filesystem::path& file, const std::filesystem::path& folder,
-                                 Reach reach);
+                                 FileScope reach);
 
 inline std::string_view text_of(const Array<char>& bytes) { return {bytes.data(), bytes.size()}; }
 

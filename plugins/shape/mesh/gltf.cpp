@@ -302,7 +302,7 @@ class Reader {
 }  // namespace gltf
 
 Surface read_gltf(std::string_view bytes, const Origin& origin, const std::filesystem::path& folder,
-                  Reach reach) {
+                  FileScope reach) {
     return gltf::Reader(gltf::read_document(without_mark(bytes), folder, reach), origin).read();
 }
 

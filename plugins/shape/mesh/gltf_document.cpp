@@ -100,7 +100,7 @@ Buffer data_of(std::string_view uri, std::size_t number) {
 }
 
 Buffer buffer_from(const BufferSource& source, std::size_t number, std::string_view binary,
-                   Document& document, const std::filesystem::path& folder, Reach reach) {
+                   Document& document, const std::filesystem::path& folder, FileScope reach) {
     if (!source.is_needed) return {};
     const auto require_whole = [&](const Buffer& buffer, const std::string& what) {
         if (buffer.bytes.size() < source.length)
@@ -169,7 +169,7 @@ int Document::add_accessor(Array<char> content, int component_type, int type, st
     return static_cast<int>(model.accessors.size() - 1);
 }
 
-Document read_document(std::string_view bytes, const std::filesystem::path& folder, Reach reach) {
+Document read_document(std::string_view bytes, const std::filesystem::path& folder, FileScope reach) {
     Chunks chunks{.json = bytes, .binary = {}};
     if (bytes.starts_with("glTF")) chunks = chunks_of(bytes);
     Geometry geometry = geometry_of(chunks.json, chunks.has_binary);

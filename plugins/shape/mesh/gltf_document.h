@@ -46,7 +46,7 @@ struct Document {
     std::vector<Skin> skins;
     std::vector<bool> is_hidden;                 // per node
     std::map<std::size_t, Instances> instances;  // by node
-    std::vector<Loss> losses;                    // what the file has besides triangles
+    std::vector<Unsupported> losses;             // what the file has besides triangles
     std::vector<std::string> materials;
     std::vector<std::filesystem::path> files;  // of buffers
     std::size_t bytes = 0;                     // of the file and of its buffers
@@ -61,6 +61,6 @@ struct Document {
 
 /// Reads buffers outside the file from `folder`, and from elsewhere if `reach` allows; decompresses
 /// compressed data. The document refers to `bytes`. Throws BadFile.
-Document read_document(std::string_view bytes, const std::filesystem::path& folder, Reach reach);
+Document read_document(std::string_view bytes, const std::filesystem::path& folder, FileScope reach);
 
 }  // namespace mesh::gltf

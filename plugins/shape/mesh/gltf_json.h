@@ -48,7 +48,7 @@ struct Skin {
 
 struct Geometry {
     std::string json;                    // only what triangles depend on, without buffers
-    std::vector<Loss> losses;            // everything else in the file
+    std::vector<Unsupported> losses;     // everything else in the file
     std::vector<std::string> materials;  // their names, in order; empty where one has none
     std::vector<BufferSource> buffers;
     std::vector<CompressedView> compressed_views;

@@ -30,7 +30,7 @@ bool is_read(std::string_view extension) {
     return std::ranges::find(k_names, extension) != k_names.end();
 }
 
-void note(std::vector<Loss>& losses, std::size_t count, std::string_view singular,
+void note(std::vector<Unsupported>& losses, std::size_t count, std::string_view singular,
           bool is_appearance = false) {
     if (count > 0) losses.emplace_back(counted(count, singular), is_appearance);
 }
@@ -47,8 +47,8 @@ void require_known_extensions(const Json& json) {
     }
 }
 
-std::vector<Loss> losses_of(const Json& json) {
-    std::vector<Loss> losses;
+std::vector<Unsupported> losses_of(const Json& json) {
+    std::vector<Unsupported> losses;
     for (const char* const what : {"material", "texture", "image", "camera", "animation"})
         note(losses, array_of(json, (std::string(what) + "s").c_str()).size(), what, true);
     if (const Json* const lights = extension_of(json, "KHR_lights_punctual"))

@@ -44,10 +44,11 @@ std::shared_ptr<const SplitVertices> Loaded::split(double crease_angle) const {
     return made;
 }
 
-std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const Origin& origin, Reach reach,
+std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const Origin& origin, FileScope reach,
                                            bool keeps_sides) {
     static std::mutex mutex;
-    static std::map<std::tuple<std::string, std::array<double, 3>, Reach, bool>, std::weak_ptr<SharedFile>>
+    static std::map<std::tuple<std::string, std::array<double, 3>, FileScope, bool>,
+                    std::weak_ptr<SharedFile>>
         files;
     std::error_code problem;
     const std::filesystem::path path =

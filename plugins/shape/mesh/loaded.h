@@ -50,7 +50,7 @@ class Loaded {
 /// Owned by all shapes of a file.
 class SharedFile {
   public:
-    static std::shared_ptr<SharedFile> of(const std::string& file, const Origin& origin, Reach reach,
+    static std::shared_ptr<SharedFile> of(const std::string& file, const Origin& origin, FileScope reach,
                                           bool keeps_sides);
 
     /// The last result of `read`, unless the file or one that it names has changed since. `read` may run on

@@ -59,7 +59,7 @@ Format format_of(const std::filesystem::path& file) {
     throw mesh::BadFile("has an unsupported mesh extension; expected .obj, .ply, .stl, .gltf or .glb");
 }
 
-mesh::Surface surface_of(const std::filesystem::path& file, const mesh::Origin& origin, mesh::Reach reach,
+mesh::Surface surface_of(const std::filesystem::path& file, const mesh::Origin& origin, mesh::FileScope reach,
                          const mesh::Progress& progress) {
     const Format format = format_of(file);
     mesh::Array<char> bytes;
@@ -129,7 +129,7 @@ class FileMesh final : public candela::Shape {
     explicit FileMesh(const MeshShape& shape)
         : file_(shape.file != nullptr ? shape.file : ""),
           crease_angle_(shape.crease_angle),
-          reach_(shape.allow_outside != 0 ? mesh::Reach::anywhere : mesh::Reach::its_folder),
+          reach_(shape.allow_outside != 0 ? mesh::FileScope::anywhere : mesh::FileScope::its_folder),
           uses_colors_(shape.vertex_colors != 0),
           part_(shape.part != nullptr ? shape.part : ""),
           appearance_imported_(shape.appearance_imported != 0),
@@ -226,7 +226,7 @@ class FileMesh final : public candela::Shape {
         if (layout.has_smooth_groups) std::ranges::copy(split.group, to.smooth_group.begin());
         if (layout.has_derivatives && layout.has_uv) derivatives_from_uv(to, layout.vertices);
         std::vector<std::string> losses;
-        for (const mesh::Loss& loss : surface.losses)
+        for (const mesh::Unsupported& loss : surface.losses)
             if (!loss.appearance || !appearance_imported_) losses.push_back(loss.text);
         if (!losses.empty())
             sink.warn(fmt::format("'{}' also has {}, which {} left out", file_, mesh::listed(losses),
@@ -253,7 +253,7 @@ class FileMesh final : public candela::Shape {
 
     std::string file_;
     double crease_angle_;
-    mesh::Reach reach_;
+    mesh::FileScope reach_;
     bool uses_colors_;
     std::string part_;
     bool appearance_imported_;

@@ -579,7 +579,7 @@ TEST_CASE("shape/mesh: reading a long text reports progress, which a scene's pro
     REQUIRE(draft);
     REQUIRE_FALSE(diagnostics.has_errors());
     std::vector<double> done;
-    candela::compile(*draft, test_registry(), diagnostics, 1, [&](std::size_t some, std::size_t all) {
+    candela::build(*draft, test_registry(), diagnostics, 1, [&](std::size_t some, std::size_t all) {
         done.push_back(static_cast<double>(some) / static_cast<double>(all));
     });
     CHECK_FALSE(diagnostics.has_errors());

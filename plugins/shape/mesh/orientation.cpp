@@ -164,7 +164,7 @@ class Orientation {
 
     Surface& surface_;
     const Corners& corners_;
-    Parts parts_;
+    ConnectedComponents parts_;
     std::vector<bool> closed_;  // per part
 };
 

@@ -106,10 +106,10 @@ class Columns {
     std::size_t column(double y) const { return cell_at(y, low_.y, high_.y); }
     std::size_t row(double z) const { return cell_at(z, low_.z, high_.z); }
 
-    struct Reach {
+    struct CellRange {
         std::size_t left, right, bottom, top;
     };
-    Reach reach(std::uint32_t t) const {
+    CellRange cells_of(std::uint32_t t) const {
         const Point2 a = flat(corner(t, 0)), b = flat(corner(t, 1)), c = flat(corner(t, 2));
         return {column(std::min({a.y, b.y, c.y})), column(std::max({a.y, b.y, c.y})),
                 row(std::min({a.z, b.z, c.z})), row(std::max({a.z, b.z, c.z}))};
@@ -117,7 +117,7 @@ class Columns {
     std::size_t entries() const {
         std::size_t count = 0;
         for (const std::uint32_t t : triangles_) {
-            const Reach r = reach(t);
+            const CellRange r = cells_of(t);
             count += (r.right - r.left + 1) * (r.top - r.bottom + 1);
         }
         return count;
@@ -126,7 +126,7 @@ class Columns {
         begin_.assign(cells_ * cells_ + 1, 0);
         const auto each = [&](auto visit) {
             for (const std::uint32_t t : triangles_) {
-                const Reach r = reach(t);
+                const CellRange r = cells_of(t);
                 for (std::size_t z = r.bottom; z <= r.top; ++z)
                     for (std::size_t y = r.left; y <= r.right; ++y) visit(z * cells_ + y, t);
             }
@@ -167,7 +167,8 @@ class Columns {
 
 }  // namespace
 
-Parts::Parts(const Surface& surface, const Corners& corners) : part_(corners.places()) {
+ConnectedComponents::ConnectedComponents(const Surface& surface, const Corners& corners)
+    : part_(corners.places()) {
     DisjointSets sets(corners.places());
     candela::parallel_for(surface.triangles(), k_per_task, [&](std::size_t begin, std::size_t end) {
         for (std::size_t t = begin; t < end; ++t) {
@@ -184,7 +185,8 @@ Parts::Parts(const Surface& surface, const Corners& corners) : part_(corners.pla
 }
 
 std::vector<std::vector<std::uint32_t>> containers_of(const Surface& surface, const Corners& corners,
-                                                      const Parts& parts, const std::vector<bool>& closed) {
+                                                      const ConnectedComponents& parts,
+                                                      const std::vector<bool>& closed) {
     const auto part_of = [&](std::uint32_t t) {
         return parts.of_place(corners.place(surface.indices[3 * std::size_t{t}]));
     };

@@ -12,9 +12,9 @@
 namespace mesh {
 
 /// The sets of places that triangles connect.
-class Parts {
+class ConnectedComponents {
   public:
-    Parts(const Surface& surface, const Corners& corners);
+    ConnectedComponents(const Surface& surface, const Corners& corners);
 
     std::size_t count() const { return count_; }
     /// From 0, in the order of their first places.
@@ -25,9 +25,10 @@ class Parts {
     std::size_t count_ = 0;
 };
 
-/// For each part, the parts that contain it, found by following a ray from one of its places. Parts that are
-/// not `closed` contain nothing.
+/// For each part, the parts that contain it, found by following a ray from one of its places.
+/// ConnectedComponents that are not `closed` contain nothing.
 std::vector<std::vector<std::uint32_t>> containers_of(const Surface& surface, const Corners& corners,
-                                                      const Parts& parts, const std::vector<bool>& closed);
+                                                      const ConnectedComponents& parts,
+                                                      const std::vector<bool>& closed);
 
 }  // namespace mesh

@@ -141,19 +141,19 @@ class Reader {
 
     // ---- vertices
 
-    using Place = std::optional<std::size_t>;
+    using PropertyIndex = std::optional<std::size_t>;
 
-    static Place scalar_of(const Element& element, std::initializer_list<std::string_view> names) {
-        const Place found = element.find(names);
+    static PropertyIndex scalar_of(const Element& element, std::initializer_list<std::string_view> names) {
+        const PropertyIndex found = element.find(names);
         return found && !element.properties[*found].is_list() ? found : std::nullopt;
     }
     /// The properties of red, green and blue that have one type.
-    static std::array<Place, 3> colors_of(const Element& element) {
-        const Place red = scalar_of(element, {"red", "diffuse_red", "r"}),
-                    green = scalar_of(element, {"green", "diffuse_green", "g"}),
-                    blue = scalar_of(element, {"blue", "diffuse_blue", "b"});
+    static std::array<PropertyIndex, 3> colors_of(const Element& element) {
+        const PropertyIndex red = scalar_of(element, {"red", "diffuse_red", "r"}),
+                            green = scalar_of(element, {"green", "diffuse_green", "g"}),
+                            blue = scalar_of(element, {"blue", "diffuse_blue", "b"});
         if (!red || !green || !blue) return {};
-        const auto type = [&](Place place) { return element.properties[*place].type; };
+        const auto type = [&](PropertyIndex place) { return element.properties[*place].type; };
         if (type(red) != type(green) || type(red) != type(blue)) return {};
         return {red, green, blue};
     }
@@ -284,11 +284,12 @@ class Reader {
         const bool is_only_one =
             header_.elements.end() == std::ranges::find(header_.elements, "tristrips", &Element::name);
         if (surface_.color.empty() && has_vertices_ && is_only_one) other.color = colors_of(element);
-        const Place uv = element.find({"texcoord"});
+        const PropertyIndex uv = element.find({"texcoord"});
         if (uv && element.properties[*uv].is_list() && surface_.u.empty() && has_vertices_ && is_only_one)
             other.uv = uv;
         if (other.uv) other.picture = scalar_of(element, {"texnumber"});
-        for (const Place place : {other.color[0], other.color[1], other.color[2], other.uv, other.picture})
+        for (const PropertyIndex place :
+             {other.color[0], other.color[1], other.color[2], other.uv, other.picture})
             if (place) used.push_back(*place);
         note_others(element, used, "face");
         if constexpr (requires { values.go_to(0); }) {
@@ -301,7 +302,7 @@ class Reader {
             coordinates.clear();
             for (std::size_t p = 0; p < element.properties.size(); ++p) {
                 const Property& property = element.properties[p];
-                const auto channel = std::ranges::find(other.color, Place(p));
+                const auto channel = std::ranges::find(other.color, PropertyIndex(p));
                 if (p == corners) {
                     const std::uint64_t count = values.length(*property.length_type);
                     if (count > values.most(property.type)) throw BadFile("ends within its faces");
@@ -340,8 +341,8 @@ class Reader {
 
     /// The properties that a face may have in addition to its corners.
     struct FaceProperties {
-        std::array<Place, 3> color{};
-        Place uv, picture;
+        std::array<PropertyIndex, 3> color{};
+        PropertyIndex uv, picture;
     };
 
     void note_wedges(const Element& element, const FaceProperties& other, std::uint64_t without,

@@ -25,6 +25,6 @@ Surface read_obj(std::string_view text, const Origin& origin, const Progress& pr
 /// glTF 2.0, text or binary (ISO/IEC 12113). Buffers are read from `folder`, and from elsewhere if `reach`
 /// allows.
 Surface read_gltf(std::string_view bytes, const Origin& origin, const std::filesystem::path& folder,
-                  Reach reach);
+                  FileScope reach);
 
 }  // namespace mesh

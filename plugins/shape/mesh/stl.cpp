@@ -123,7 +123,7 @@ class VertexMerger {
 
     /// Writes the numbers of the vertices at `count` positions, of at most k_most_at_once.
     void number(const Vec3* positions, std::size_t count, std::uint32_t* numbers) {
-        std::array<Place, k_most_at_once> place;
+        std::array<PositionBits, k_most_at_once> place;
         std::array<std::size_t, k_most_at_once> hashes;
         const std::size_t mask = slots_.size() - 1;
         for (std::size_t i = 0; i < count; ++i) {
@@ -147,10 +147,10 @@ class VertexMerger {
     }
 
   private:
-    using Place = std::array<std::uint32_t, 3>;
+    using PositionBits = std::array<std::uint32_t, 3>;
     static constexpr std::uint32_t k_free = 0xffff'ffffu;
 
-    std::uint32_t number_of(const Place& place, std::size_t hash) {
+    std::uint32_t number_of(const PositionBits& place, std::size_t hash) {
         const std::size_t mask = slots_.size() - 1;
         for (std::size_t at = hash & mask;; at = (at + 1) & mask) {
             if (slots_[at] == k_free) {
@@ -165,7 +165,7 @@ class VertexMerger {
     }
 
     static std::uint32_t bits(float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); }  // -0 is 0
-    static std::size_t hash(const Place& place) {
+    static std::size_t hash(const PositionBits& place) {
         std::uint64_t h = 0x9e3779b97f4a7c15u;
         for (const std::uint32_t part : place) h = (h ^ part) * 0xff51afd7ed558ccdu, h ^= h >> 32;
         return h;
@@ -181,7 +181,7 @@ class VertexMerger {
     }
 
     Array<std::uint32_t> slots_;
-    Array<Place> places_;
+    Array<PositionBits> places_;
 };
 
 Surface read_binary(Pieces& file, const Origin& origin) {

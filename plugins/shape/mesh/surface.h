@@ -76,10 +76,10 @@ inline constexpr std::uint32_t k_by_angle = 0xffff'ffffu;
 inline constexpr std::uint32_t k_flat = 0;
 
 /// A part of a file's content that a mesh leaves out.
-struct Loss {
+struct Unsupported {
     /// `what` is the object of a verb: "2 materials". `is_appearance`: it concerns how the triangles are
     /// coloured and lit, which a scene can describe itself.
-    Loss(std::string what, bool is_appearance = false)  // NOLINT(google-explicit-constructor)
+    Unsupported(std::string what, bool is_appearance = false)  // NOLINT(google-explicit-constructor)
         : text(std::move(what)), appearance(is_appearance) {}
 
     std::string text;
@@ -104,7 +104,7 @@ struct Surface {
     std::vector<std::string> materials;   // their names; k_no_material is that of triangles without one
 
     std::vector<std::filesystem::path> files;  // further files that it was read from
-    std::vector<Loss> losses;
+    std::vector<Unsupported> losses;
     std::vector<std::string> notes;  // warnings, as predicates of the file's name
 
     std::size_t triangles() const { return indices.size() / 3; }

@@ -58,7 +58,7 @@ class CppWriter {
         const bool is_perspective = observer.projection == Projection::perspective;
         return filled(
             text,
-            {{"TITLE", tame(scene_.title)},
+            {{"TITLE", ascii_identifier(scene_.title)},
              {"VERSION", CANDELA_PLUGIN_VERSION},
              {"VECTORS", vectors + (has_tables ? "\n" + std::string(candela_cpp_tables) : "")},
              {"CONSTRUCTORS", constructors(kernels)},
@@ -338,7 +338,7 @@ class CppTarget final : public Target {
         target::write(files, "CMakeLists.txt", candela_cpp_cmake);
         target::write(
             files, "README.md",
-            filled(candela_cpp_readme, {{"TITLE", tame(scene.title)},
+            filled(candela_cpp_readme, {{"TITLE", ascii_identifier(scene.title)},
                                         {"VERSION", CANDELA_PLUGIN_VERSION},
                                         {"TEXTURES", scene.textures.empty() ? "" : readme_of_textures()}}));
     }

@@ -24,8 +24,8 @@ std::string constants(const ExportedScene& scene) {
             if (light.model != m) continue;
             ++count;
             if (has_parameters(model))
-                entries +=
-                    fmt::format("    {},  // {}\n", struct_text(model, light.values), tame(light.label));
+                entries += fmt::format("    {},  // {}\n", struct_text(model, light.values),
+                                       ascii_identifier(light.label));
         }
         text += has_parameters(model) ? fmt::format("const std::vector<{}> k_{}_lights = {{\n{}}};\n\n",
                                                     constants_type(model), kernel.prefix, entries)

@@ -66,8 +66,8 @@ void CppObjects::add_object(std::size_t index) {
     if (has_function(object.shape, "position") && !mesh.color) grid = grid_of(mesh);
     if (grid) shape_models_.push_back(object.shape);
 
-    std::string text = fmt::format("    {{  // {}: {}\n        Object o;\n", tame(object.label),
-                                   tame(object.shape.plugin->name));
+    std::string text = fmt::format("    {{  // {}: {}\n        Object o;\n", ascii_identifier(object.label),
+                                   ascii_identifier(object.shape.plugin->name));
     text += grid ? grid_text(object, *grid, scene_.needs_derivatives)
                  : fmt::format("        o.mesh = mesh_{}();\n", mesh_number(mesh));
     const Transform& at = object.transform;

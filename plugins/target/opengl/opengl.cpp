@@ -48,7 +48,7 @@ class OpenGlWriter {
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) objects += object_text(i);
         const GlslParts glsl = glsl_of(scene_);
         const ExportedImage& image = scene_.image;
-        const Values about = {{"TITLE", tame(scene_.title)}, {"VERSION", CANDELA_PLUGIN_VERSION}};
+        const Values about = {{"TITLE", ascii_identifier(scene_.title)}, {"VERSION", CANDELA_PLUGIN_VERSION}};
         Values values = {
             {"PRELUDE", raw(glsl.prelude)},
             {"LIGHTS", raw(glsl.lights)},
@@ -169,9 +169,9 @@ class OpenGlWriter {
 
     static std::vector<std::string> uniforms(const ExportedModel& model, const ExportedValues& values) {
         std::vector<std::string> all;
-        for (std::size_t i = 0; i < values.delivered.size(); ++i) {
+        for (std::size_t i = 0; i < values.runtime.size(); ++i) {
             const ParamSpec& p = model.plugin->parameters[i];
-            const ParamValue& value = values.delivered[i];
+            const ParamValue& value = values.runtime[i];
             if (p.type == ParamType::file || p.type == ParamType::numbers) {
                 all.push_back(whole(std::string(p.name) + ".first", static_cast<std::size_t>(value.integer)));
                 all.push_back(whole(std::string(p.name) + ".count", value.list.size()));
@@ -195,9 +195,9 @@ class OpenGlWriter {
             const PluginDescriptor& plugin = *scene_.light_models[m].plugin;
             for (const ExportedLight& light : scene_.lights) {
                 if (light.model != m) continue;
-                text += fmt::format("    // {}\n", tame(light.label));
+                text += fmt::format("    // {}\n", ascii_identifier(light.label));
                 for (const std::size_t i : plugin.kernel.members) {
-                    for (const std::string& texel : texels(plugin.parameters[i], light.values.delivered[i]))
+                    for (const std::string& texel : texels(plugin.parameters[i], light.values.runtime[i]))
                         text += fmt::format("    {},\n", texel);
                 }
             }
@@ -232,8 +232,9 @@ class OpenGlWriter {
         const ExportedObject& object = scene_.objects[index];
         const bool is_closed = add_arrays(index);
         return fmt::format("    {{\"{}\", {}, {}, {},\n     {},\n     {},\n     {}, object_{}(){}}},\n",
-                           tame(object.label), braces(decoded(object.color, encoding_)), object.shading,
-                           object.reflection, all_uniforms(scene_.reflections, object.materials),
+                           ascii_identifier(object.label), braces(decoded(object.color, encoding_)),
+                           object.shading, object.reflection,
+                           all_uniforms(scene_.reflections, object.materials),
                            all_uniforms(scene_.shadings, object.shadings), is_closed, index,
                            texture_members(scene_, object));
     }
@@ -267,7 +268,7 @@ class OpenGlWriter {
             "    static const std::size_t normals_of[] = {{{}}};\n    return {{{}, {}, corners, position, "
             "normals, normals_of, {}, {}, "
             "{}, {}}};\n}}\n",
-            tame(scene_.objects[index].label), index, body, fmt::join(sets, ", "),
+            ascii_identifier(scene_.objects[index].label), index, body, fmt::join(sets, ", "),
             fmt::join(mesh.normals_of, ", "), count, mesh.triangle_count(), uv, dpdu, dpdv, color);
         return mesh.closed;
     }

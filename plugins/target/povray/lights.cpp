@@ -96,7 +96,8 @@ std::string lights_text(const ExportedScene& scene, FileSink& files) {
             continue;
         }
         if (light.punctual.empty()) continue;
-        text += fmt::format("\n// {}: {}\n", target::tame(light.label), target::tame(model));
+        text += fmt::format("\n// {}: {}\n", target::ascii_identifier(light.label),
+                            target::ascii_identifier(model));
         for (const PunctualLight& sample : light.punctual) {
             text += light_text(scene, sample, model, files);
             needs_near = needs_near || (sample.w != 0 && sample.quadratic > 0);

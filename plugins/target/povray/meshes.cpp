@@ -142,8 +142,8 @@ std::string mesh_text(const ExportedScene& scene, std::size_t index, FileSink& f
     const ExportedShading& shading = scene.shadings[object.shading];
     target::approximate_shading(shading, files);
     const ExportedMesh mesh = scene.geometry->in_world_space(index);
-    const std::string name =
-        fmt::format("{}: {}", target::tame(object.label), target::tame(object.shape.plugin->name));
+    const std::string name = fmt::format("{}: {}", target::ascii_identifier(object.label),
+                                         target::ascii_identifier(object.shape.plugin->name));
     const bool is_textured = object.color_texture != ExportedObject::k_no_texture;
     if (is_textured && mesh.color)
         files.approximate("the colours at the vertices of objects with a texture are left out");

@@ -51,7 +51,7 @@ std::string scene_text(const ExportedScene& scene, FileSink& files) {
     const auto color = decoded(scene.image.background, scene.image.color_management);
     std::string meshes;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) meshes += mesh_text(scene, i, files);
-    return target::filled(candela_povray_scene, {{"TITLE", target::tame(scene.title)},
+    return target::filled(candela_povray_scene, {{"TITLE", target::ascii_identifier(scene.title)},
                                                  {"VERSION", CANDELA_PLUGIN_VERSION},
                                                  {"GAMMA", gamma_text(scene)},
                                                  {"AMBIENT", rgb_text(ambient_of(scene))},

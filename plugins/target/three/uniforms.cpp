@@ -70,7 +70,7 @@ Json struct_json(const ExportedModel& model, const ExportedValues& values) {
     Json json = Json::object();
     for (const std::size_t i : model.plugin->kernel.members) {
         const ParamSpec& p = model.plugin->parameters[i];
-        json[p.name] = member_json(p, values.delivered[i]);
+        json[p.name] = member_json(p, values.runtime[i]);
     }
     return json;
 }
@@ -88,7 +88,7 @@ std::vector<std::int32_t> light_table(const ExportedScene& scene) {
         for (const ExportedLight& light : scene.lights) {
             if (light.model != m) continue;
             for (const std::size_t i : plugin.kernel.members)
-                texels.add(plugin.parameters[i], light.values.delivered[i]);
+                texels.add(plugin.parameters[i], light.values.runtime[i]);
         }
     }
     return texels.numbers();

@@ -68,7 +68,7 @@ Json fixed_json(const ExportedModel& model, const ExportedValues& values) {
     Json result = Json::object();
     for (const std::size_t i : model.plugin->kernel.members) {
         const ParamSpec& p = model.plugin->parameters[i];
-        const ParamValue& value = values.delivered[i];
+        const ParamValue& value = values.runtime[i];
         if (is_adjustable(p)) continue;
         if (p.type == ParamType::matrix) {
             Json columns = Json::array();

@@ -119,7 +119,7 @@ class KernelLight : public Light {
     void illuminate(int, const ReceiverBatch& receivers, const IncidentBatch& incident) const override {
         multiversion<IlluminateLoop<Params, illuminate_>>(params_, receivers, incident);
     }
-    bool describe(int sample, PunctualLight& light) const override {
+    bool as_punctual(int sample, PunctualLight& light) const override {
         return described(params_, sample, light);
     }
 
@@ -141,7 +141,7 @@ class KernelSampledLight : public Light {
                     const IncidentBatch& incident) const override {
         multiversion<IlluminateLoop<Params, illuminate_>>(params_, receivers, incident, sample);
     }
-    bool describe(int sample, PunctualLight& light) const override {
+    bool as_punctual(int sample, PunctualLight& light) const override {
         return described(params_, sample, light);
     }
 
@@ -161,7 +161,7 @@ class KernelAmbientLight : public Light {
     void illuminate_ambient(const ReceiverBatch& receivers, const Vec3Span& ambient) const override {
         multiversion<IlluminateAmbientLoop<Params, illuminate_ambient_>>(params_, receivers, ambient);
     }
-    bool describe_ambient(Rgb& ambient) const override {
+    bool as_ambient(Rgb& ambient) const override {
         if constexpr (requires { uniform_ambient(params_); }) {
             const vec3 same = uniform_ambient(params_);
             ambient = {same.x, same.y, same.z};

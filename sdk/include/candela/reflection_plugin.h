@@ -287,8 +287,8 @@ class KernelReflection : public ReflectionModel {
                                                                             reflected);
     }
 
-    bool reflect_punctual(const SurfaceBatch& surface, const PunctualLighting& lighting,
-                          const Vec3Span& intensity) const override {
+    bool reflect_all_lights(const SurfaceBatch& surface, const PunctualLighting& lighting,
+                            const Vec3Span& intensity) const override {
         const SurfacePasses passes(surface);
         const SurfacePasses* const all = &passes;
         PassVectors rest;

@@ -1,4 +1,4 @@
-// Makes a reflection model that shows the object's surroundings from five kernel functions:
+// Makes a reflection model that shows the object's environment from five kernel functions:
 //
 //     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)
 //     vec3 x_reflect_ambient(XMaterial m, Surface s)
@@ -155,34 +155,34 @@ class KernelRefraction : public ReflectionModel {
                          const ReflectedBatch& reflected) const override {
         surface_.reflect_ambient(surface, ambient, reflected);
     }
-    void show_surroundings(const SurfaceBatch& surface, Surroundings& surroundings,
-                           const ReflectedBatch& reflected) const override {
+    void show_environment(const SurfaceBatch& surface, Environment& environment,
+                          const ReflectedBatch& reflected) const override {
         const SurfacePasses passes(surface);
         for (std::size_t first = 0; first < surface.count; first += Rays::k_size)
-            follow(passes.from(first), surroundings, reflected.specular.from(first));
+            follow(passes.from(first), environment, reflected.specular.from(first));
     }
 
   private:
     /// The mirrored part, then the part that leaves at the far side, then the part that leaves after another
     /// internal reflection …
-    void follow(const SurfaceBatch& surface, Surroundings& surroundings, const Vec3Span& sum) const {
+    void follow(const SurfaceBatch& surface, Environment& environment, const Vec3Span& sum) const {
         Rays rays;
         rays.count = surface.count;
         multiversion<EnterLoop<Material, enter_, reads>>(material_, surface, &rays);
-        look(rays, surroundings);
+        look(rays, environment);
         for (int within = 0; rays.count > 0; ++within) {
             const bool is_last = within == material_.internal_reflections;
-            surroundings.leave(rays.count, rays.origin.span(), rays.direction.span(),
-                               {rays.exit_position.span(), rays.exit_normal.span(), rays.distance});
+            environment.trace_exit(rays.count, rays.origin.span(), rays.direction.span(),
+                                   {rays.exit_position.span(), rays.exit_normal.span(), rays.distance});
             multiversion<LeaveLoop<Material, leave_, transmit_>>(material_, &rays, is_last,
-                                                                 surroundings.max_intensity());
-            look(rays, surroundings);
+                                                                 environment.max_intensity());
+            look(rays, environment);
             rays.remove_ended(is_last, sum);
         }
     }
 
-    static void look(Rays& rays, Surroundings& surroundings) {
-        surroundings.look(rays.filled(), rays.towards.span(), rays.seen.span());
+    static void look(Rays& rays, Environment& environment) {
+        environment.look(rays.filled(), rays.towards.span(), rays.seen.span());
         multiversion<AddSeenLoop>(&rays);
     }
 

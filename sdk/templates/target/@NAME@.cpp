@@ -25,7 +25,7 @@ class @TYPE@Target final : public Target {
         std::size_t before = 1;  // vertices are counted from 1, across all objects
         for (std::size_t o = 0; o < scene.objects.size(); ++o) {
             const ExportedMesh mesh = scene.geometry->in_world_space(o);
-            text << "o " << target::tame(scene.objects[o].label) << '\n';
+            text << "o " << target::ascii_identifier(scene.objects[o].label) << '\n';
             for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
                 const Vec3 p = mesh.position[v];
                 text << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';

@@ -28,8 +28,9 @@ class Csv final : public Target {
             const PluginDescriptor& model = *scene.light_models[light.model].plugin;
             for (std::size_t i = 0; i < model.parameters.size(); ++i) {
                 const ParamValue& value = light.values.written[i];
-                lights << target::tame(light.label) << ',' << model.name << ',' << model.parameters[i].name
-                       << ',' << value.number[0] << ' ' << value.number[1] << ' ' << value.number[2] << '\n';
+                lights << target::ascii_identifier(light.label) << ',' << model.name << ','
+                       << model.parameters[i].name << ',' << value.number[0] << ' ' << value.number[1] << ' '
+                       << value.number[2] << '\n';
             }
         }
         objects << "label,shape,shading,reflection,closed\n";
@@ -37,7 +38,7 @@ class Csv final : public Target {
         for (std::size_t o = 0; o < scene.objects.size(); ++o) {
             const ExportedObject& object = scene.objects[o];
             const ExportedMesh mesh = scene.geometry->in_world_space(o);
-            const std::string label = target::tame(object.label);
+            const std::string label = target::ascii_identifier(object.label);
             objects << label << ',' << object.shape.plugin->name << ','
                     << scene.shadings[object.shading].plugin->name << ','
                     << scene.reflections[object.reflection].plugin->name << ',' << mesh.closed << '\n';

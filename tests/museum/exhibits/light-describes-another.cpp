@@ -5,7 +5,7 @@ namespace {
 class DescribesAnother final : public museum::Lamp {
   public:
     explicit DescribesAnother(const museum::LampParams& params) : Lamp(params), lamp_(params) {}
-    bool describe(int, candela::PunctualLight& light) const override {
+    bool as_punctual(int, candela::PunctualLight& light) const override {
         light = candela::sdk::punctual_source(lamp_.position, candela::sdk::vec3(1.0f), 1, 2, 0);
         return true;
     }

@@ -18,11 +18,11 @@ using Sound =
 class ForgetsALight final : public Sound {
   public:
     explicit ForgetsALight(const museum::Params& params) : Sound({params.kd}) {}
-    bool reflect_punctual(const candela::SurfaceBatch& surface, const candela::PunctualLighting& lighting,
-                          const candela::Vec3Span& intensity) const override {
+    bool reflect_all_lights(const candela::SurfaceBatch& surface, const candela::PunctualLighting& lighting,
+                            const candela::Vec3Span& intensity) const override {
         candela::PunctualLighting most = lighting;
         if (!most.lights.empty()) most.lights = most.lights.first(most.lights.size() - 1);
-        return Sound::reflect_punctual(surface, most, intensity);
+        return Sound::reflect_all_lights(surface, most, intensity);
     }
 };
 }  // namespace

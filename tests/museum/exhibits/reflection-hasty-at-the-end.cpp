@@ -6,8 +6,8 @@
 namespace {
 class HastyAtTheEnd final : public museum::Matt {
     using Matt::Matt;
-    bool reflect_punctual(const candela::SurfaceBatch& s, const candela::PunctualLighting&,
-                          const candela::Vec3Span& out) const override {
+    bool reflect_all_lights(const candela::SurfaceBatch& s, const candela::PunctualLighting&,
+                            const candela::Vec3Span& out) const override {
         for (std::size_t i = 0; i <= s.count; ++i)
             out.set(i, {1, 1, std::numeric_limits<float>::quiet_NaN()});
         return true;

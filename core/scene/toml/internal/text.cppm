@@ -24,7 +24,7 @@ std::optional<std::string> text_of_bytes(std::string bytes, const std::string& s
                                          std::uintmax_t& bytes_left, Diagnostics& diagnostics);
 
 /// The position of a byte of a text.
-SourcePlace place_at(std::string_view text, std::size_t offset, const std::string& shown_name);
+SourceLocation place_at(std::string_view text, std::size_t offset, const std::string& shown_name);
 
 struct Excess {
     std::size_t offset = 0;  // in bytes; everything before it is within the limits

@@ -10,7 +10,7 @@
 namespace candela::kernel_language {
 
 /// Where something begins: the byte, and the index of its text among the kernel's (see Kernel::sources).
-struct Place {
+struct TextPosition {
     std::uint32_t offset = 0;
     std::uint8_t source = 0;
 };
@@ -27,7 +27,7 @@ struct Type {
 struct TypeName {
     std::string name{};
     Type type{};
-    Place place{};
+    TextPosition place{};
 };
 
 struct Expression {
@@ -45,8 +45,8 @@ struct Expression {
     };
     Kind kind = Kind::integer;
     Type type{};
-    Place place{};       // of the name or the operator
-    std::string text{};  // the literal, the name or the operator
+    TextPosition place{};  // of the name or the operator
+    std::string text{};    // the literal, the name or the operator
     std::vector<Expression> operands{};
     std::uint32_t depth = 1;    // of the tree
     bool becomes_real = false;  // an integer where a real number is expected
@@ -55,11 +55,11 @@ struct Expression {
 struct Statement {
     enum class Kind : std::uint8_t { block, declare, assign, branch, loop, result, leave, next };
     Kind kind = Kind::block;
-    Place place{};
+    TextPosition place{};
     bool is_constant = false;  // of `declare`
     TypeName type{};           // of `declare`
     std::string name{};        // what is declared, or the operator of `assign`: "=", "+=", "++"
-    Place name_place{};
+    TextPosition name_place{};
     /// declare: the initialiser, if any. assign: the target, then the value, except for ++ and --. branch:
     /// the condition. loop: the condition. result: the value.
     std::vector<Expression> expressions{};
@@ -72,14 +72,14 @@ struct Variable {
     bool is_constant = false;
     TypeName type{};
     std::string name{};
-    Place place{};
+    TextPosition place{};
 };
 
 struct Structure {
     std::string name{};
-    Place place{};
+    TextPosition place{};
     std::vector<Variable> members{};
-    Place end{};
+    TextPosition end{};
     std::uint64_t numbers = 0;  // in it, including those of its members' structs
 };
 
@@ -90,12 +90,12 @@ struct Constant {
 struct Function {
     TypeName result{};
     std::string name{};
-    Place place{};  // of KERNEL
-    Place name_place{};
+    TextPosition place{};  // of KERNEL
+    TextPosition name_place{};
     std::vector<Variable> parameters{};
-    Place begin{};  // of the body's opening brace
+    TextPosition begin{};  // of the body's opening brace
     std::vector<Statement> body{};
-    Place end{};
+    TextPosition end{};
     std::uint64_t steps = 0;  // at most, in one call
     std::uint64_t size = 0;   // numbers that its text computes, including those of the functions that it
                               // calls

@@ -17,12 +17,12 @@ namespace candela::target {
 std::string float_text(float x);
 /// "vec3(1.0f, 0.0f, 0.5f)".
 std::string vec3_text(Vec3 v);
-/// A matrix's delivered values, column by column.
-std::array<Vec3, 3> columns_of(const ParamValue& delivered);
+/// A matrix's runtime values, column by column.
+std::array<Vec3, 3> columns_of(const ParamValue& runtime);
 /// A value as the initialiser of a kernel's member: "0.5f", "2", "vec3(...)", "mat3(...)"; a table as
 /// "Table{12, 30}", its offset in ExportedScene::tables and its size. The word of a choice is added as a
 /// comment.
-std::string member_text(const ParamSpec& parameter, const ParamValue& delivered);
+std::string member_text(const ParamSpec& parameter, const ParamValue& runtime);
 
 /// A float in the fewest digits that identify it: 0.1, not 0.10000000149011612.
 double shortest(float x);
@@ -35,7 +35,7 @@ std::string identifier(std::string_view name, std::string_view suffix);
 /// A user's name as one line that is safe in a comment of C++, CMake or Markdown: letters, digits and a few
 /// marks; '_' replaces everything else. Latin, Greek and Cyrillic letters become ASCII ("Größe" is
 /// "Groesse"), and quotes around a label are removed.
-std::string tame(std::string_view name);
+std::string ascii_identifier(std::string_view name);
 /// Escapes text for an HTML page. Bytes that are not UTF-8 are replaced.
 std::string html_text(std::string_view text);
 /// Escapes JSON for a <script> of an HTML page, where "</script>" and "<!--" would end or change it.

@@ -26,12 +26,12 @@ class PageArrays {
     const std::string& html() const { return html_; }
 
   private:
-    struct Place {
+    struct TextRange {
         std::size_t begin, size;  // in html_
     };
 
     std::vector<std::string> names_;
-    std::map<std::string, Place> places_;
+    std::map<std::string, TextRange> places_;
     std::string html_;
 };
 

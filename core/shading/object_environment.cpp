@@ -6,24 +6,24 @@ module;
 
 module candela.shading;
 
-import :surroundings;
+import :object_environment;
 
 namespace candela {
 
-void ObjectSurroundings::look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) {
+void ObjectEnvironment::look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) {
     environment_.look(count, towards, intensity);
 }
 
-void ObjectSurroundings::leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
-                               const ExitBatch& exit) {
+void ObjectEnvironment::trace_exit(std::size_t count, const ConstVec3Span& origin,
+                                   const ConstVec3Span& direction, const ExitBatch& exit) {
     for (std::size_t first = 0; first < count; first += k_batch_size) {
         leave_batch(std::min(k_batch_size, count - first), origin.from(first), direction.from(first),
                     {exit.position.from(first), exit.normal.from(first), exit.distance + first});
     }
 }
 
-void ObjectSurroundings::leave_batch(std::size_t count, const ConstVec3Span& origin,
-                                     const ConstVec3Span& direction, const ExitBatch& exit) {
+void ObjectEnvironment::leave_batch(std::size_t count, const ConstVec3Span& origin,
+                                    const ConstVec3Span& direction, const ExitBatch& exit) {
     triangles_.assign(count, 0);
     barycentric_.resize(k_batch_size);
     normal_.resize(k_batch_size);

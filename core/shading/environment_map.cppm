@@ -6,7 +6,7 @@ module;
 #include <filesystem>
 #include <vector>
 
-export module candela.shading:environment;
+export module candela.shading:environment_map;
 
 import candela.api;
 import candela.plugins;
@@ -14,12 +14,12 @@ import candela.plugins;
 export namespace candela {
 
 /// The intensity from infinity, by direction: uniform, or from an environment map. Immutable; any thread.
-class CANDELA_EXPORT Environment {
+class CANDELA_EXPORT EnvironmentMap {
   public:
-    explicit Environment(Rgb everywhere = {});
+    explicit EnvironmentMap(Rgb everywhere = {});
     /// An equirectangular picture: its centre is the view along -z, its right half is towards +x, its top row
     /// +y. `intensity`: per channel, interleaved, rows from the top.
-    Environment(int width, int height, std::vector<float> intensity);
+    EnvironmentMap(int width, int height, std::vector<float> intensity);
 
     bool is_uniform() const noexcept { return width_ == 0; }
     /// The largest intensity over all directions and channels.
@@ -39,7 +39,7 @@ class CANDELA_EXPORT Environment {
 
 /// Reads a picture as an environment; 8-bit colours are decoded according to `encoding`. Throws Error if no
 /// image plugin supports the format or the file is unreadable.
-CANDELA_EXPORT Environment read_environment(const std::filesystem::path& file, Registry& registry,
-                                            ColorEncoding encoding);
+CANDELA_EXPORT EnvironmentMap read_environment(const std::filesystem::path& file, Registry& registry,
+                                               ColorEncoding encoding);
 
 }  // namespace candela

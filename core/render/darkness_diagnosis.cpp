@@ -28,9 +28,9 @@ Vec3 towards(const Camera& camera, Vec3 point) {
     return camera.projection == Projection::perspective ? camera.eye - point : -camera.forward;
 }
 
-std::string unseen(const CompiledScene& scene, const Camera& camera) {
+std::string unseen(const RenderScene& scene, const Camera& camera) {
     bool any_ahead = false;
-    for (const SolidObject& object : scene.objects) {
+    for (const RenderObject& object : scene.objects) {
         const ConstVec3Span p = object.mesh.position.span();
         for (std::size_t i = 0; i < object.mesh.vertex_count() && !any_ahead; ++i)
             any_ahead = dot(p[i] - camera.eye, camera.forward) > 0;
@@ -60,7 +60,7 @@ class Receivers {
             arrays->resize(k_size);
     }
 
-    void add(const Mesh& mesh, std::size_t triangle, const Camera& camera, const CompiledScene& scene) {
+    void add(const Mesh& mesh, std::size_t triangle, const Camera& camera, const RenderScene& scene) {
         const ConstVec3Span p = mesh.position.span();
         const Vec3 centroid =
             (1 / 3.0f) * (p[mesh.indices[3 * triangle]] + p[mesh.indices[3 * triangle + 1]] +
@@ -75,11 +75,11 @@ class Receivers {
         if (++count_ == k_size) flush(scene);
     }
 
-    void flush(const CompiledScene& scene) {
+    void flush(const RenderScene& scene) {
         const ReceiverBatch batch{.count = count_,
                                   .position = ConstVec3Span(position_.span()),
                                   .normal = ConstVec3Span(normal_.span())};
-        for (const LitSource& source : scene.lights) {
+        for (const RenderLight& source : scene.lights) {
             for (int sample = 0; sample < source.light->sample_count(); ++sample) {
                 source.light->illuminate(sample, batch,
                                          {to_light_.span(), diffuse_.span(), specular_.span()});
@@ -106,9 +106,9 @@ class Receivers {
     std::size_t count_ = 0;
 };
 
-Received received_in(const CompiledScene& scene, const Camera& camera) {
+Received received_in(const RenderScene& scene, const Camera& camera) {
     Receivers receivers;
-    for (const SolidObject& object : scene.objects) {
+    for (const RenderObject& object : scene.objects) {
         for (std::size_t t = 0; t < object.mesh.triangle_count(); ++t)
             receivers.add(object.mesh, t, camera, scene);
     }
@@ -143,7 +143,8 @@ float darkest_visible(const Film& film) {
 
 }  // namespace
 
-std::string why_black(const CompiledScene& scene, const Film& film, const RenderStatistics& statistics) {
+std::string darkness_diagnosis(const RenderScene& scene, const Film& film,
+                               const RenderStatistics& statistics) {
     if (scene.objects.empty() || scene.lights.empty()) return {};
     const float visible = darkest_visible(film);
     if (statistics.pixels_shaded > 0 && statistics.brightest > visible) return {};

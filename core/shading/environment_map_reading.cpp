@@ -16,7 +16,8 @@ import candela.util;
 
 namespace candela {
 
-Environment read_environment(const std::filesystem::path& file, Registry& registry, ColorEncoding encoding) {
+EnvironmentMap read_environment(const std::filesystem::path& file, Registry& registry,
+                                ColorEncoding encoding) {
     std::optional<DecodedPicture> picture = read_by_plugin(file, registry, encoding);
     if (!picture) {
         throw Error(ErrorCategory::failure,

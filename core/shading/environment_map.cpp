@@ -29,17 +29,17 @@ CANDELA_KERNEL_INLINE float within(float x, float low, float high) {
 constexpr std::size_t k_group_size = 64;
 
 /// The four pixels around each direction, and its position between them.
-struct Places {
+struct BilinearFootprints {
     std::array<std::array<std::uint32_t, k_group_size>, 4> pixel;  // upper left, upper right, lower left …
     std::array<float, k_group_size> across, down;
 };
 
-struct PlaceLoop {
+struct FootprintLoop {
     CANDELA_BATCH_LOOP static void run(int width, int height, ConstVec3Span towards, std::size_t count,
-                                       Places* places) {
+                                       BilinearFootprints* footprints) {
         constexpr float k_inverse_pi = std::numbers::inv_pi_v<float>;
         const auto columns = static_cast<float>(width), rows = static_cast<float>(height);
-        Places& p = *places;
+        BilinearFootprints& p = *footprints;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const vec3 d = kernel::load(towards, i);
@@ -85,23 +85,23 @@ class Pixels {
 
 }  // namespace
 
-Environment::Environment(Rgb everywhere)
+EnvironmentMap::EnvironmentMap(Rgb everywhere)
     : everywhere_(everywhere), max_intensity_(std::max({everywhere.r, everywhere.g, everywhere.b})) {}
 
-Environment::Environment(int width, int height, std::vector<float> intensity)
+EnvironmentMap::EnvironmentMap(int width, int height, std::vector<float> intensity)
     : max_intensity_(std::ranges::max(intensity)),
       width_(width),
       height_(height),
       intensity_(std::move(intensity)) {}
 
-Rgb Environment::seen(Vec3 towards) const noexcept {
+Rgb EnvironmentMap::seen(Vec3 towards) const noexcept {
     Rgb rgb;
     look(1, {&towards.x, &towards.y, &towards.z}, {&rgb.r, &rgb.g, &rgb.b});
     return rgb;
 }
 
-void Environment::look(std::size_t count, const ConstVec3Span& towards,
-                       const Vec3Span& intensity) const noexcept {
+void EnvironmentMap::look(std::size_t count, const ConstVec3Span& towards,
+                          const Vec3Span& intensity) const noexcept {
     if (is_uniform()) {
         std::fill_n(intensity.x, count, everywhere_.r);
         std::fill_n(intensity.y, count, everywhere_.g);
@@ -109,13 +109,13 @@ void Environment::look(std::size_t count, const ConstVec3Span& towards,
         return;
     }
     const Pixels pixels(intensity_);
-    Places places;
+    BilinearFootprints footprints;
     for (std::size_t first = 0; first < count; first += k_group_size) {
         const std::size_t here = std::min(k_group_size, count - first);
-        multiversion<PlaceLoop>(width_, height_, towards.from(first), here, &places);
+        multiversion<FootprintLoop>(width_, height_, towards.from(first), here, &footprints);
         for (std::size_t i = 0; i < here; ++i) {
-            const auto pixel = [&](std::size_t corner) { return pixels[places.pixel[corner][i]]; };
-            const float across = places.across[i], down = places.down[i];
+            const auto pixel = [&](std::size_t corner) { return pixels[footprints.pixel[corner][i]]; };
+            const float across = footprints.across[i], down = footprints.down[i];
             const Eigen::Array4f upper = (1 - across) * pixel(0) + across * pixel(1),
                                  lower = (1 - across) * pixel(2) + across * pixel(3),
                                  seen = (1 - down) * upper + down * lower;

@@ -8,7 +8,7 @@ module;
 #include <string>
 #include <vector>
 
-export module candela.render:compiled_scene;
+export module candela.render:render_scene;
 
 import candela.geometry;
 import candela.plugins;
@@ -19,7 +19,7 @@ import candela.util;
 export namespace candela {
 
 /// An object with its triangles and its models.
-struct SolidObject {
+struct RenderObject {
     std::string label;
     Mesh mesh;
     SurfaceModels surface;
@@ -29,12 +29,12 @@ struct SolidObject {
 /// A scene with its plugins loaded and its objects tessellated, shared by all its pictures. Rendering does
 /// not change it. Between pictures, its observer, lights, colours and models may be replaced freely (a
 /// reflection model that shows its surroundings needs its object's tree).
-struct CompiledScene {
+struct RenderScene {
     Observer observer;
     ImageSettings image;
-    Environment environment;  // visible where there is no object
-    std::vector<LitSource> lights;
-    std::vector<SolidObject> objects;
+    EnvironmentMap environment;  // visible where there is no object
+    std::vector<RenderLight> lights;
+    std::vector<RenderObject> objects;
 };
 
 /// Receives the progress of some work.
@@ -45,10 +45,10 @@ using Progress = std::function<void(std::size_t done, std::size_t all)>;
 /// reported before; warns about meshes that are not closed. `threads`: as in RenderOptions. `progress` is
 /// called by one thread at a time: each object counts when it has its triangles (a large one in parts), when
 /// it has been checked and when it has its normals.
-CANDELA_EXPORT std::optional<CompiledScene> compile(const SceneDraft& draft, Registry& registry,
-                                                    Diagnostics& diagnostics, int threads = 0,
-                                                    const Progress& progress = {});
-CANDELA_EXPORT std::optional<CompiledScene> compile(const Scene& scene, Registry& registry,
-                                                    Diagnostics& diagnostics, int threads = 0);
+CANDELA_EXPORT std::optional<RenderScene> build(const SceneDraft& draft, Registry& registry,
+                                                Diagnostics& diagnostics, int threads = 0,
+                                                const Progress& progress = {});
+CANDELA_EXPORT std::optional<RenderScene> build(const Scene& scene, Registry& registry,
+                                                Diagnostics& diagnostics, int threads = 0);
 
 }  // namespace candela

@@ -7,7 +7,7 @@ namespace candela {
 
 PictureRows::~PictureRows() = default;
 RandomAccessSink::~RandomAccessSink() = default;
-RowFormat::~RowFormat() = default;
+ScanlineImageFormat::~ScanlineImageFormat() = default;
 
 ViewedRows::ViewedRows(const PictureView& picture) : picture_(picture) {}
 ViewedRows::~ViewedRows() = default;

@@ -9,7 +9,7 @@ module;
 
 module candela.render;
 
-import :probe;
+import :pixel_inspector;
 import :tile;
 import candela.api;
 import candela.geometry;
@@ -25,23 +25,23 @@ constexpr int k_tile_size = 32;
 /// The fragments of one pixel, traced.
 class FragmentTracer {
   public:
-    FragmentTracer(const CompiledScene& scene, const ProjectedScene& projected)
+    FragmentTracer(const RenderScene& scene, const ProjectedScene& projected)
         : scene_(scene), projected_(projected) {
         shader_.begin({scene.lights, &scene.environment, projected.camera});
     }
 
-    FragmentProbe trace(std::uint32_t object, const FragmentRun& run, std::uint32_t triangle) {
-        const SolidObject& solid = scene_.objects[object];
+    InspectedFragment trace(std::uint32_t object, const FragmentRun& run, std::uint32_t triangle) {
+        const RenderObject& solid = scene_.objects[object];
         const ProjectedMesh mesh{projected_, solid.mesh, projected_.first_vertex[object]};
         PointNeeds needs = solid.surface.needs();
         needs.face_normal = needs.vertex_normal = needs.barycentric = true;
         gather_fragments(mesh, {std::span(&run, 1), std::span(&triangle, 1)}, needs, points_);
-        FragmentProbe fragment{.object = object,
-                               .triangle = triangle,
-                               .weight = run.weight,
-                               .position = points_.position.span()[0],
-                               .barycentric = points_.barycentric.span()[0],
-                               .rate = solid.surface.shading->shading_rate()};
+        InspectedFragment fragment{.object = object,
+                                   .triangle = triangle,
+                                   .weight = run.weight,
+                                   .position = points_.position.span()[0],
+                                   .barycentric = points_.barycentric.span()[0],
+                                   .rate = solid.surface.shading->shading_rate()};
         switch (fragment.rate) {
             case ShadingRate::fragment:
                 fragment.points.push_back(trace_point(solid));
@@ -59,13 +59,13 @@ class FragmentTracer {
     }
 
   private:
-    PointTrace trace_point(const SolidObject& solid) {
+    PointTrace trace_point(const RenderObject& solid) {
         apply_texture(solid.surface, points_);
         return shader_.trace(solid.surface, {&solid.mesh, solid.tree ? &*solid.tree : nullptr}, points_);
     }
 
-    void trace_vertices(const ProjectedMesh& mesh, const SolidObject& solid, std::uint32_t triangle,
-                        FragmentProbe& fragment) {
+    void trace_vertices(const ProjectedMesh& mesh, const RenderObject& solid, std::uint32_t triangle,
+                        InspectedFragment& fragment) {
         const bool is_back = points_.facing[0] < 0;
         std::array<Vec3, 3> at_corner;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -78,7 +78,7 @@ class FragmentTracer {
         fragment.intensity = b.x * at_corner[0] + b.y * at_corner[1] + b.z * at_corner[2];
     }
 
-    const CompiledScene& scene_;
+    const RenderScene& scene_;
     const ProjectedScene& projected_;
     SurfaceShader shader_;
     SurfacePoints points_;
@@ -86,7 +86,7 @@ class FragmentTracer {
 
 }  // namespace
 
-PixelProbe probe(const CompiledScene& scene, int x, int y) {
+InspectedPixel inspect_pixel(const RenderScene& scene, int x, int y) {
     const int width = scene.image.width, height = scene.image.height;
     if (x < 0 || y < 0 || x >= width || y >= height) throw std::out_of_range("the picture has no such pixel");
     ProjectedScene projected;
@@ -99,7 +99,7 @@ PixelProbe probe(const CompiledScene& scene, int x, int y) {
     find_visible(projected, tile_row * projected.tile_columns + x / k_tile_size, worker.visibility, visible);
 
     // Renders the whole tile by the pipeline itself, so that the pixel is the picture's by construction.
-    PixelProbe result;
+    InspectedPixel result;
     Film film(width, height, PixelType::byte, scene.image.color_management, rows);
     shade_tile(scene, visible, worker, film);
     const std::size_t at = 3 * (static_cast<std::size_t>(y - rows.first) * static_cast<std::size_t>(width) +

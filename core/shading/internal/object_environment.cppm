@@ -4,9 +4,9 @@ module;
 #include <cstdint>
 #include <vector>
 
-module candela.shading:surroundings;
+module candela.shading:object_environment;
 
-import :environment;
+import :environment_map;
 import :surface;
 import candela.api;
 import candela.geometry;
@@ -19,9 +19,9 @@ namespace candela {
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal);
 
 /// The world around one object, as its models see it.
-class ObjectSurroundings final : public Surroundings {
+class ObjectEnvironment final : public Environment {
   public:
-    explicit ObjectSurroundings(const Environment& environment) : environment_(environment) {}
+    explicit ObjectEnvironment(const EnvironmentMap& environment) : environment_(environment) {}
 
     /// Sets the object for the following calls.
     void set_object(const SurfaceModels& surface, const Interior& interior) {
@@ -31,14 +31,14 @@ class ObjectSurroundings final : public Surroundings {
 
     void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) override;
     float max_intensity() const noexcept override { return environment_.max_intensity(); }
-    void leave(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
-               const ExitBatch& exit) override;
+    void trace_exit(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
+                    const ExitBatch& exit) override;
 
   private:
     void leave_batch(std::size_t count, const ConstVec3Span& origin, const ConstVec3Span& direction,
                      const ExitBatch& exit);
 
-    const Environment& environment_;
+    const EnvironmentMap& environment_;
     const SurfaceModels* surface_ = nullptr;
     Interior interior_;
     SurfacePoints points_;  // where rays left

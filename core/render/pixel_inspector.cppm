@@ -8,16 +8,16 @@ module;
 #include <cstdint>
 #include <vector>
 
-export module candela.render:probe;
+export module candela.render:pixel_inspector;
 
-import :compiled_scene;
+import :render_scene;
 import candela.api;
 import candela.shading;
 
 export namespace candela {
 
 /// The contribution of one triangle to a pixel.
-struct FragmentProbe {
+struct InspectedFragment {
     std::size_t object = 0;      // index among the scene's
     std::uint32_t triangle = 0;  // of the object's mesh
     float weight = 1;            // the fraction of the pixel's samples that see the triangle
@@ -29,17 +29,17 @@ struct FragmentProbe {
     Vec3 intensity{};                  // of the fragment
 };
 
-struct PixelProbe {
-    std::vector<FragmentProbe> fragments{};  // in the order in which they are added up
-    float background_weight = 0;             // the fraction of the pixel's samples that see the background
-    Vec3 background{};                       // its intensity
-    Vec3 intensity{};                        // of the pixel
-    std::array<std::uint8_t, 3> bytes{};     // of the pixel in an 8-bit picture
+struct InspectedPixel {
+    std::vector<InspectedFragment> fragments{};  // in the order in which they are added up
+    float background_weight = 0;          // the fraction of the pixel's samples that see the background
+    Vec3 background{};                    // its intensity
+    Vec3 intensity{};                     // of the pixel
+    std::array<std::uint8_t, 3> bytes{};  // of the pixel in an 8-bit picture
 };
 
 /// Inspects pixel (x, y), counted from the top left corner, of the picture that render() makes of the scene;
 /// `intensity` and `bytes` are those of that picture. Throws Error like render(), and std::out_of_range if
 /// the picture has no such pixel.
-CANDELA_EXPORT PixelProbe probe(const CompiledScene& scene, int x, int y);
+CANDELA_EXPORT InspectedPixel inspect_pixel(const RenderScene& scene, int x, int y);
 
 }  // namespace candela

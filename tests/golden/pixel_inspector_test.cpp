@@ -1,4 +1,4 @@
-// candela::probe(): an explained pixel is the picture's.
+// candela::inspect_pixel(): an explained pixel is the picture's.
 #include <png.h>
 
 #include <algorithm>
@@ -110,13 +110,13 @@ TEST_CASE(
         for (int i = 0; i < 60; ++i, ++pixels) {
             const int x = static_cast<int>(random() % 96), y = static_cast<int>(random() % 64);
             INFO("pixel " << x << "," << y);
-            const candela::PixelProbe probe = candela::probe(scene.scene, x, y);
+            const candela::InspectedPixel probe = candela::inspect_pixel(scene.scene, x, y);
             const auto at = 3 * static_cast<std::size_t>(y * png.width + x);
             CHECK(
                 std::equal(probe.bytes.begin(), probe.bytes.end(), png.rgb.begin() + static_cast<long>(at)));
             candela::Vec3 sum = probe.background_weight * probe.background;
             float scale = 1;
-            for (const candela::FragmentProbe& fragment : probe.fragments) {
+            for (const candela::InspectedFragment& fragment : probe.fragments) {
                 ++lit;
                 const candela::Object& object = scene.source.objects[fragment.object];
                 reflections.insert(object.reflection.name);
@@ -156,6 +156,6 @@ TEST_CASE(
 
 TEST_CASE("a pixel outside the picture cannot be probed") {
     const Compiled scene = compiled(std::string(candela::default_scene_text()));
-    CHECK_THROWS_AS(candela::probe(scene.scene, -1, 0), std::out_of_range);
-    CHECK_THROWS_AS(candela::probe(scene.scene, 0, scene.scene.image.height), std::out_of_range);
+    CHECK_THROWS_AS(candela::inspect_pixel(scene.scene, -1, 0), std::out_of_range);
+    CHECK_THROWS_AS(candela::inspect_pixel(scene.scene, 0, scene.scene.image.height), std::out_of_range);
 }

@@ -67,7 +67,7 @@ std::string tame_character(char32_t c) {
 
 }  // namespace
 
-std::string tame(std::string_view name) {
+std::string ascii_identifier(std::string_view name) {
     constexpr std::size_t k_longest = 100;
     const bool is_quoted = name.size() > 2 && name.front() == '\'' && name.back() == '\'';
     if (is_quoted) name = name.substr(1, name.size() - 2);
