@@ -4,7 +4,7 @@
 #   scripts/fuzz.sh SECONDS [HARNESS…]    scene, setting, manifest, mesh, mesh_file, material, gltf, request, answer, kernel
 #   scripts/fuzz.sh --merge [HARNESS…]    adds inputs that reach new code to the corpus, and removes those that no
 #                                         longer adds anything
-# A corpus is tests/fuzz/corpus/<harness>, inputs with descriptive names, and <harness>.tar.gz, inputs from fuzzing that reach code
+# A corpus is tests/robustness/fuzz/corpus/<harness>, inputs with descriptive names, and <harness>.tar.gz, inputs from fuzzing that reach code
 # that these do not. New inputs and findings are written to build/fuzz/found/<harness>, never among the sources. The exit code tells
 # whether there were findings.
 set -euo pipefail
@@ -31,26 +31,26 @@ export UBSAN_OPTIONS=${UBSAN_OPTIONS-print_stacktrace=1}
 
 status=0
 for harness in "$@"; do
-    program=build/fuzz/tests/fuzz/candela_${harness}_fuzz
-    corpus=tests/fuzz/corpus/$harness
-    unpacked=build/fuzz/tests/fuzz/corpus/$harness
+    program=build/fuzz/tests/robustness/fuzz/candela_${harness}_fuzz
+    corpus=tests/robustness/fuzz/corpus/$harness
+    unpacked=build/fuzz/tests/robustness/fuzz/corpus/$harness
     found=build/fuzz/found/$harness
     [ -x "$program" ] || { echo "fuzz: unknown harness '$harness'" >&2; exit 2; }
-    real=build/fuzz/tests/fuzz/corpus/${harness}_real  # of mesh_file
+    real=build/fuzz/tests/robustness/fuzz/corpus/${harness}_real  # of mesh_file
     seeds=("$corpus" "$unpacked")
     [ ! -d "$real" ] || seeds+=("$real")
     mkdir -p "$found/inputs" "$found/findings"
     options=(-rss_limit_mb=2048 -malloc_limit_mb=1024 -timeout=20 -artifact_prefix="$found/findings/" -print_final_stats=1)
     case $harness in
-        scene) options+=(-max_len=4096 -dict=tests/fuzz/toml.dict) ;;
-        setting) options+=(-max_len=512 -dict=tests/fuzz/toml.dict) ;;
-        manifest) options+=(-max_len=4096 -dict=tests/fuzz/json.dict) ;;
+        scene) options+=(-max_len=4096 -dict=tests/robustness/fuzz/toml.dict) ;;
+        setting) options+=(-max_len=512 -dict=tests/robustness/fuzz/toml.dict) ;;
+        manifest) options+=(-max_len=4096 -dict=tests/robustness/fuzz/json.dict) ;;
         mesh) options+=(-max_len=1024) ;;
         mesh_file) options+=(-max_len=4096) ;;
-        material) options+=(-max_len=2048 -dict=tests/fuzz/mtl.dict) ;;
-        answer) options+=(-max_len=4096 -dict=tests/fuzz/kernel.dict) ;;
+        material) options+=(-max_len=2048 -dict=tests/robustness/fuzz/mtl.dict) ;;
+        answer) options+=(-max_len=4096 -dict=tests/robustness/fuzz/kernel.dict) ;;
         kernel) options+=(-max_len=2048) ;;
-        gltf) options+=(-max_len=8192 -dict=tests/fuzz/gltf.dict) ;;
+        gltf) options+=(-max_len=8192 -dict=tests/robustness/fuzz/gltf.dict) ;;
     esac
     if [ "$seconds" = --merge ]; then
         # Named inputs are regression tests and stay. The others must add coverage.

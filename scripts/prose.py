@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 SUFFIXES = {".cpp", ".cppm", ".h", ".in", ".py", ".sh", ".js", ".css", ".html", ".kernel", ".glsl", ".cmake", ".txt", ".md", ".toml", ".yml"}
 # Data, and this list.
-EXCEPT = re.compile(r"^(LICENSE|tests/fuzz/corpus/|scripts/prose\.py$)|/third_party/")
+EXCEPT = re.compile(r"^(LICENSE|tests/robustness/fuzz/corpus/|scripts/prose\.py$)|/third_party/")
 # White space, where a comment or a string literal may be continued on the next line.
 GAP = r'(?:[ \t]|"\s*\n\s*"|\n\s*(?://[/!]?<?|#|\*)?[ \t]*)+'
 START = r'(?:^|(?<=[.;:] )|(?<=[/#*] )|(?<="))'

@@ -1,0 +1,15 @@
+// A PPM writer that leaves its own file in the working directory.
+#include "faulty_reflection.h"
+
+namespace {
+class LeavesAFile final : public faulty::Ppm {
+    using Ppm::Ppm;
+    void write(const candela::PictureView& picture, const char* extension,
+               candela::ByteSink& sink) const override {
+        std::ofstream("picture.tmp") << "half a picture";
+        Ppm::write(picture, extension, sink);
+    }
+};
+}  // namespace
+
+FAULTY_FORMAT(LeavesAFile)

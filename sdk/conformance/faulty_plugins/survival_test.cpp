@@ -1,0 +1,244 @@
+// The renderer survives every fault that a host can: a plugin's fault is an error that names the plugin, and
+// no picture is left.
+#include <catch2/catch_test_macros.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Survived {
+    std::vector<std::string> use;
+    const char* message;
+};
+
+CommandResult rendered(const std::vector<std::string>& use, const fs::path& picture) {
+    std::vector<std::string> words{"render", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS, "-o",
+                                   picture.string()};
+    words.insert(words.end(), use.begin(), use.end());
+    return run_candela(words);
+}
+
+CommandSetup in_directory(const fs::path& directory) {
+    CommandSetup setup;
+    setup.directory = directory;
+    return setup;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "exceptions, out-of-bounds writes and non-finite results of plugins end in an error that names "
+    "them") {
+    const fs::path picture = scratch_directory() / "a.png";
+    const std::vector<Survived> faults = {
+        {{"--reflection=throws-on-create"},
+         "object 'cube': plugin reflection/throws-on-create: out of paint"},
+        {{"--reflection=throws-a-number"},
+         "plugin reflection/throws-a-number threw an object that is not a std::exception"},
+        {{"--reflection=not-a-number", "--set", "light.lamp.position=[0, -0.9, -4]"},
+         "plugin reflection/not-a-number returned a non-finite value"},
+    };
+    for (const Survived& fault : faults) {
+        const CommandResult result = rendered(fault.use, picture);
+        INFO(fault.use.front() << "\n" << result.err);
+        CHECK(result.err.find(fault.message) != std::string::npos);
+        CHECK(result.exit_code == 1);
+        CHECK_FALSE(fs::exists(picture));
+    }
+    const fs::path scene = write_file(scratch_directory() / "ambient.toml",
+                                      "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+                                      "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"cube\"\n");
+    const CommandResult ambient =
+        rendered({scene.string(), "--shading=flat", "--reflection=throws-in-ambient"}, picture);
+    INFO(ambient.err);
+    CHECK(ambient.exit_code == 1);
+    CHECK(ambient.err.find("plugin reflection/throws-in-ambient: no ambience") != std::string::npos);
+}
+
+TEST_CASE(
+    "a plugin that writes past its batch, however far, is found or harmless, and never causes a crash") {
+    const fs::path directory = scratch_directory();
+    for (const char* const size : {"16", "64", "300"}) {
+        const fs::path picture = directory / "a.png";
+        const CommandResult result =
+            rendered({"--reflection=writes-past-the-end", "--width", size, "--height", size}, picture);
+        INFO(size << "\n" << result.err);
+        CHECK((result.exit_code == 0 || result.exit_code == 1));
+        if (result.exit_code == 1)
+            CHECK(result.err.find("plugin reflection/writes-past-the-end wrote past the end of its batch") !=
+                  std::string::npos);
+    }
+    const CommandResult hasty = rendered({"--reflection=hasty-at-the-end"}, directory / "d.png");
+    INFO(hasty.err);
+    CHECK(hasty.exit_code == 1);
+    CHECK(hasty.err.find("plugin reflection/hasty-at-the-end ") != std::string::npos);
+    // 512 pixels per side fill whole batches, where it is found.
+    CHECK(rendered({"--reflection=writes-past-the-end"}, directory / "b.png").exit_code == 1);
+    const CommandResult added = rendered({"--reflection=adds-past-the-end"}, directory / "c.png");
+    INFO(added.err);
+    CHECK(added.exit_code == 1);
+    CHECK(added.err.find("plugin reflection/adds-past-the-end wrote past the end of its batch") !=
+          std::string::npos);
+}
+
+TEST_CASE("listing, checking and using other plugins never loads one that traps") {
+    CHECK(run_candela({"list", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS}).exit_code == 0);
+    CHECK(run_candela({"describe", "reflection/traps-on-load", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS})
+              .exit_code == 0);
+    CHECK(rendered({}, scratch_directory() / "a.png").exit_code == 0);
+}
+
+TEST_CASE("the doctor survives a plugin that traps, and names each plugin's problem") {
+    const fs::path directory = scratch_directory();
+    for (const char* const name : {"reflection-traps-on-load", "reflection-faultless"}) {
+        for (const char* const extension : {".so", ".json"}) {
+            const std::string file = std::string(name) + extension;
+            fs::copy_file(fs::path(CANDELA_TEST_FAULTY_PLUGINS) / file, directory / file);
+        }
+    }
+    write_file(directory / "light-text.so", "no library");
+    write_file(directory / "shape-alone.json", "{}");
+    fs::create_directory(directory / "second");
+    for (const char* const file : {"reflection-faultless.so", "reflection-faultless.json"})
+        fs::copy_file(fs::path(CANDELA_TEST_FAULTY_PLUGINS) / file, directory / "second" / file);
+    const CommandResult result =
+        run_candela({"plugin", "doctor", "--plugin-dir", directory.string(), "--plugin-dir",
+                     (directory / "second").string(), "--plugin-dir", directory.string()});
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 1);
+    for (const char* const part :
+         {"reflection-traps-on-load.so    refused: loading it ended the process with signal",
+          "in use: reflection/faultless 1.0.0", "hidden by",
+          "light-text.so                  refused: its manifest light-text.json is missing",
+          "shape-alone.so                 refused: its manifest exists, but the library does not",
+          "in use: light/point"}) {
+        INFO(part);
+        CHECK(result.out.find(part) != std::string::npos);
+    }
+}
+
+TEST_CASE(
+    "however loading a library ends, the doctor reports it and terminates, and so does the manifest writer") {
+    const fs::path directory = scratch_directory();
+    const fs::path library = directory / "reflection-misbehaves-on-load.so";
+    for (const char* const extension : {".so", ".json"}) {
+        const std::string file = std::string("reflection-misbehaves-on-load") + extension;
+        fs::copy_file(fs::path(CANDELA_TEST_FAULTY_PLUGINS) / file, directory / file);
+    }
+    struct Ending {
+        const char* what;
+        const char* message;
+    };
+    for (const auto& [what, message] : {
+             Ending{"exit", "refused: loading it ended the process with exit code 0"},
+             Ending{"sleep", "refused: loading it did not finish within 2 s"},
+             Ending{"stop", "refused: loading it did not finish within 2 s"},
+             Ending{"throw", "refused: loading it "},
+             Ending{"abort", "refused: loading it ended the process with signal Aborted"},
+             Ending{"crash", "refused: loading it ended the process with signal Segmentation fault"},
+             Ending{"close", "refused: loading it ended the process with exit code 0"},
+             Ending{"fork", "starts a process that keeps running every time it is loaded"},
+         }) {
+        INFO(what);
+        CommandSetup setup;
+        setup.environment = {{"FAULTY_ON_LOAD", what}};
+        const CommandResult doctor =
+            run_candela({"plugin", "doctor", "--time-limit", "2", "--plugin-dir", directory.string()}, setup);
+        INFO(doctor.out << doctor.err);
+        CHECK(doctor.exit_code == 1);
+        CHECK(doctor.out.find(message) != std::string::npos);
+        CHECK(doctor.out.find("in use: light/point") != std::string::npos);
+    }
+    for (const auto& [what, message] : {Ending{"exit", "ended the process with exit code 0"},
+                                        Ending{"abort", "ended the process with signal"}}) {
+        CommandSetup setup;
+        setup.environment = {{"FAULTY_ON_LOAD", what}};
+        const fs::path manifest = directory / "written.json";
+        const CommandResult writer =
+            run_program({CANDELA_TEST_MANIFEST_WRITER, library.string(), manifest.string()}, setup);
+        INFO(what << writer.out << writer.err);
+        CHECK(writer.exit_code == 1);
+        CHECK(writer.err.find(message) != std::string::npos);
+        CHECK(!fs::exists(manifest));
+    }
+}
+
+TEST_CASE("however loading a library ends, the conformance kit reports it and terminates") {
+    const fs::path library = fs::path(CANDELA_TEST_FAULTY_PLUGINS) / "reflection-misbehaves-on-load.so";
+    struct Ending {
+        const char* what;
+        const char* message;
+    };
+    for (const auto& [what, message] : {
+             Ending{"exit", "the plugin ended the process, with exit code 0"},
+             Ending{"sleep", "not finished after 2 s"},
+             Ending{"stop", "not finished after 2 s"},
+             Ending{"abort", "ended by signal SIGABRT"},
+             Ending{"crash", "ended by signal SIGSEGV"},
+             Ending{"close", "the plugin ended the process"},
+         }) {
+        CommandSetup setup;
+        setup.environment = {{"FAULTY_ON_LOAD", what}};
+        const CommandResult result =
+            run_candela({"plugin", "test", library.string(), "--time-limit", "2"}, setup);
+        INFO(what << result.out << result.err);
+        CHECK(result.exit_code == 4);
+        CHECK(result.out.find(message) != std::string::npos);
+        CHECK(result.out.find("it cannot be loaded") != std::string::npos);
+    }
+}
+
+TEST_CASE("the doctor reports a refused plugin once, whether its folder's path is relative or absolute") {
+    const fs::path directory = scratch_directory();
+    fs::create_directory(directory / "plugins");
+    fs::copy_file(fs::path(CANDELA_TEST_FAULTY_PLUGINS) / "reflection-faultless.so",
+                  directory / "plugins" / "reflection-other.so");
+    std::string manifest = read_file(fs::path(CANDELA_TEST_FAULTY_PLUGINS) / "reflection-faultless.json");
+    const std::size_t at = manifest.find("\"faultless\"");
+    REQUIRE(at != std::string::npos);
+    write_file(directory / "plugins" / "reflection-other.json", manifest.replace(at, 11, "\"other\""));
+    const CommandResult result =
+        run_candela({"plugin", "doctor", "--plugin-dir", "plugins"}, in_directory(directory));
+    INFO(result.out);
+    CHECK(result.out.find("reflection-other.so            refused: its manifest disagrees") !=
+          std::string::npos);
+    CHECK(result.out.find("refused: plugin") == std::string::npos);
+}
+
+TEST_CASE("a new plugin with an existing plugin's name hides it, with a warning") {
+    const fs::path directory = scratch_directory();
+    const CommandResult hiding =
+        run_candela({"plugin", "new", "reflection", "lambert"}, in_directory(directory));
+    INFO(hiding.err);
+    CHECK(hiding.exit_code == 0);
+    CHECK(hiding.err.find("a reflection plugin 'lambert' already exists") != std::string::npos);
+    CHECK(run_candela({"plugin", "new", "reflection", "velvet"}, in_directory(directory)).err.empty());
+}
+
+TEST_CASE("plugins that every user can change are refused, unless explicitly allowed") {
+    const fs::path directory = scratch_directory();
+    for (const char* const file : {"reflection-faultless.so", "reflection-faultless.json"})
+        fs::copy_file(fs::path(CANDELA_TEST_FAULTY_PLUGINS) / file, directory / file);
+    const std::vector<std::string> words{"describe", "reflection/faultless", "--plugin-dir",
+                                         directory.string()};
+    CHECK(run_candela(words).exit_code == 0);
+    const auto refused = [&] {
+        const CommandResult result = run_candela(words);
+        CHECK(result.err.find("is writable by every user, so anybody could run code here") !=
+              std::string::npos);
+        CHECK(result.exit_code == 1);
+        std::vector<std::string> trusting = words;
+        trusting.emplace_back("--allow-untrusted-plugins");
+        CHECK(run_candela(trusting).exit_code == 0);
+    };
+    fs::permissions(directory / "reflection-faultless.so", fs::perms::others_write, fs::perm_options::add);
+    refused();
+    fs::permissions(directory / "reflection-faultless.so", fs::perms::others_write, fs::perm_options::remove);
+    fs::permissions(directory, fs::perms::others_write, fs::perm_options::add);
+    refused();
+}

@@ -1,0 +1,18 @@
+// Its description as data omits the attenuation.
+#include "faulty_light.h"
+
+namespace {
+class DescribesAnother final : public faulty::Lamp {
+  public:
+    explicit DescribesAnother(const faulty::LampParams& params) : Lamp(params), lamp_(params) {}
+    bool as_punctual(int, candela::PunctualLight& light) const override {
+        light = candela::sdk::punctual_source(lamp_.position, candela::sdk::vec3(1.0f), 1, 2, 0);
+        return true;
+    }
+
+  private:
+    faulty::LampParams lamp_;
+};
+}  // namespace
+
+FAULTY_LIGHT(DescribesAnother)

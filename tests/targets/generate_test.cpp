@@ -1,0 +1,305 @@
+// candela generate: its output and its errors.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <string>
+
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string k_still_life = CANDELA_TEST_SOURCE "/docs/examples/still-life.toml";
+
+/// All shapes but meshes from files, coarse, under all kinds of light; one of them extends behind the
+/// observer.
+const std::string k_coarse = R"(version = 1
+observer = {position = [0, 1, 4], look_at = [0, 0, 0]}
+image = {width = 96, height = 64, samples = 4}
+shading = {model = "phong"}
+reflection = {model = "phong"}
+room = {width = 40, height = 10, depth = 40}
+light = [
+    {type = "ambient"}, {type = "hemisphere"}, {type = "directional", direction = [1, -1, -1]},
+    {type = "point", position = [2, 3, 2], intensity = 9},
+    {type = "spot", position = [-2, 3, 2], direction = [1, -2, -1], intensity = 9},
+    {type = "distributed", position = [0, 3, 0], intensity = 9},
+]
+object = [
+    {type = "cube", scale = [30, 0.1, 30], position = [0, -1, 0]},
+    {type = "sphere", segments = 9, position = [-1.5, 0, 0]},
+    {type = "torus", segments = 9, rotation = [50, 0, 0], major_radius = 0.5, minor_radius = 0.2, position = [1.5, 0, 0]},
+    {type = "teapot", segments = 3, position = [0, 0, -1]},
+]
+)";
+
+std::ptrdiff_t lines_of(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
+
+void generate(const std::vector<std::string>& arguments) {
+    std::vector<std::string> words{"generate"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    const CommandResult result = run_candela(words);
+    INFO(result.err);
+    REQUIRE(result.exit_code == 0);
+}
+
+/// Compiles with every warning an error, and expects none.
+void require_compiles(const std::vector<std::string>& compiler, const fs::path& source,
+                      const fs::path& program) {
+    std::vector<std::string> words = compiler;
+    words.insert(words.end(), {"-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", source.string(), "-o",
+                               program.string()});
+    const CommandResult result = run_program(words);
+    INFO(fmt::format("{}\n{}", compiler.front(), result.err.substr(0, 2000)));
+    REQUIRE(result.exit_code == 0);
+    CHECK(result.err.empty());
+}
+
+}  // namespace
+
+TEST_CASE(
+    "generate: the default scene's C++ program has fewer than 650 lines, and contains its kernels word for "
+    "word") {
+    const fs::path directory = scratch_directory();
+    generate({"--target", "cpp", "-o", directory.string()});
+    const std::string source = read_file(directory / "scene.cpp");
+    CHECK(lines_of(source) < 650);
+    CHECK(source.find(read_file(CANDELA_TEST_SOURCE "/plugins/reflection/phong/phong.kernel")) !=
+          std::string::npos);
+    CHECK(source.find(read_file(CANDELA_TEST_SOURCE "/plugins/light/point/point.kernel")) !=
+          std::string::npos);
+    CHECK(source.find("#include \"") == std::string::npos);
+    CHECK(source.find('@') == std::string::npos);
+}
+
+TEST_CASE("generate: -o - prints the file that a target writes, byte for byte, and nothing else") {
+    const fs::path directory = scratch_directory();
+    generate({"--target", "webgl", "-o", directory.string()});
+    const CommandResult page = run_candela({"generate", "--target", "webgl", "-o", "-"});
+    CHECK(page.exit_code == 0);
+    CHECK((page.out == read_file(directory / "scene.html")));
+    CHECK(page.err.empty());
+
+    const CommandResult program = run_candela({"generate", "--target", "opengl", "-o", "-"});
+    CHECK(program.exit_code == 2);
+    CHECK(program.out.empty());
+    CHECK(program.err.find("target/opengl writes") != std::string::npos);
+    CHECK(program.err.find("give a folder") != std::string::npos);
+    const CommandResult built = run_candela({"generate", "--target", "webgl", "-o", "-", "--run"});
+    CHECK(built.exit_code == 2);
+    CHECK(built.err.find("give a folder") != std::string::npos);
+}
+
+TEST_CASE(
+    "generate: the C++ programs compile with g++ and clang++ without a warning, and draw the same picture",
+    "[programs]") {
+    const fs::path directory = scratch_directory();
+    for (const std::string& scene : {std::string(), k_still_life}) {
+        std::vector<std::string> words{"--target", "cpp", "-o",       directory.string(),
+                                       "--width",  "160", "--height", "100"};
+        if (!scene.empty()) words.push_back(scene);
+        generate(words);
+        require_compiles({"g++"}, directory / "scene.cpp", directory / "by-gcc");
+        require_compiles({CANDELA_TEST_COMPILER}, directory / "scene.cpp", directory / "by-clang");
+        REQUIRE(run_program({(directory / "by-gcc").string(), (directory / "gcc.ppm").string()}).exit_code ==
+                0);
+        REQUIRE(
+            run_program({(directory / "by-clang").string(), (directory / "clang.ppm").string()}).exit_code ==
+            0);
+        const std::string a = read_file(directory / "gcc.ppm"), b = read_file(directory / "clang.ppm");
+        REQUIRE(a.size() == b.size());
+        // One compiler may fuse a product and a sum where the other does not.
+        std::size_t differing = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) differing += a[i] != b[i] ? 1 : 0;
+        CHECK(differing < a.size() / 500);
+    }
+}
+
+TEST_CASE("generate: the C++ program of a scene with many models runs clean under AddressSanitizer and UBSan",
+          "[whole]") {
+    const fs::path directory = scratch_directory();
+    const fs::path scene = write_file(directory / "scene.toml", k_coarse);
+    generate({scene.string(), "--target", "cpp", "-o", directory.string(), "--models", "all"});
+    require_compiles(
+        {CANDELA_TEST_COMPILER, "-g", "-fsanitize=address,undefined", "-fno-sanitize-recover=all"},
+        directory / "scene.cpp", directory / "scene");
+    for (const auto& models :
+         {std::vector<std::string>{}, {"flat", "ward"}, {"gouraud", "ggx"}, {"derivative", "toon"}}) {
+        std::vector<std::string> words{(directory / "scene").string(), (directory / "scene.png").string()};
+        words.insert(words.end(), models.begin(), models.end());
+        const CommandResult result = run_program(words);
+        INFO(result.err);
+        CHECK(result.exit_code == 0);
+    }
+}
+
+TEST_CASE("generate: scenes without lights, without objects and without both become programs that compile",
+          "[programs]") {
+    const fs::path directory = scratch_directory();
+    const std::string head =
+        "version = 1\n[observer]\nposition = [0, 0, 3]\nlook_at = [0, 0, 0]\n[image]\nwidth = 32\nheight = "
+        "24\n";
+    const std::string light = "[[light]]\ntype = \"point\"\nposition = [0, 2, 2]\n";
+    const std::string object =
+        "[[object]]\ntype = \"sphere\"\nshading = \"phong\"\nreflection = \"lambert\"\n";
+    int number = 0;
+    for (const std::string& text : {head, head + light, head + object, head + light + object}) {
+        const fs::path scene = write_file(directory / fmt::format("{}.toml", number++), text);
+        generate({scene.string(), "--defaults", "--target", "cpp", "-o", directory.string()});
+        require_compiles({"g++"}, directory / "scene.cpp", directory / "scene");
+        CHECK(run_program({(directory / "scene").string(), (directory / "scene.png").string()}).exit_code ==
+              0);
+        generate({scene.string(), "--defaults", "--target", "webgl", "-o", directory.string()});
+    }
+}
+
+TEST_CASE("generate: --models adds models, and the C++ program switches to them") {
+    const fs::path directory = scratch_directory();
+    generate({"--target", "cpp", "-o", directory.string(), "--models", "half-lambert,shading/flat,ggx",
+              "--width", "64", "--height", "64"});
+    require_compiles({"g++"}, directory / "scene.cpp", directory / "scene");
+    const auto picture = [&](const std::vector<std::string>& models) {
+        std::vector<std::string> words{(directory / "scene").string(), (directory / "scene.ppm").string()};
+        words.insert(words.end(), models.begin(), models.end());
+        REQUIRE(run_program(words).exit_code == 0);
+        return read_file(directory / "scene.ppm");
+    };
+    const std::string own = picture({});
+    const bool same = picture({"phong", "phong"}) == own;
+    CHECK(same);
+    const bool other_reflection = picture({"phong", "half-lambert"}) != own;
+    CHECK(other_reflection);
+    const bool third_reflection = picture({"phong", "ggx"}) != picture({"phong", "half-lambert"});
+    CHECK(third_reflection);
+    const bool other_shading = picture({"flat"}) != own;
+    CHECK(other_shading);
+}
+
+TEST_CASE("generate: programs have help, and refuse unknown arguments") {
+    const fs::path directory = scratch_directory();
+    generate({"--target", "cpp", "-o", directory.string(), "--models", "half-lambert,shading/flat", "--width",
+              "32", "--height", "32"});
+    require_compiles({"g++"}, directory / "scene.cpp", directory / "scene");
+    generate({"--target", "cpp", "-o", (directory / "one").string(), "--width", "32", "--height", "32"});
+    require_compiles({"g++"}, directory / "one/scene.cpp", directory / "one/scene");
+    const auto run = [&](const std::string& program, std::vector<std::string> words) {
+        words.insert(words.begin(), (directory / program).string());
+        CommandSetup setup;
+        setup.directory = directory;
+        return run_program(words, setup);
+    };
+    const CommandResult help = run("scene", {"--help"});
+    CHECK(help.exit_code == 0);
+    CHECK(help.out.find("scene [PICTURE [SHADING [REFLECTION]]]") != std::string::npos);
+    CHECK(help.out.find("REFLECTION: of all objects: phong, half-lambert") != std::string::npos);
+    CHECK(run("one/scene", {"--help"}).out.find("scene [PICTURE]\n") != std::string::npos);
+    CHECK_FALSE(fs::exists(directory / "--help"));
+    struct Mistake {
+        std::string program;
+        std::vector<std::string> words;
+        std::string complaint;
+    };
+    const std::vector<Mistake> mistakes = {{"scene", {"--heigth"}, "'--heigth'"},
+                                           {"scene", {"a.ppm", "falt"}, "'falt'"},
+                                           {"scene", {"a.ppm", "flat", "half"}, "half-lambert"},
+                                           {"scene", {"a.ppm", "flat", "phong", "more"}, "'more'"},
+                                           {"one/scene", {"a.ppm", "flat"}, "'flat'"}};
+    for (const auto& [program, words, complaint] : mistakes) {
+        const CommandResult result = run(program, words);
+        INFO(result.err);
+        CHECK(result.exit_code == 1);
+        CHECK(result.err.find(complaint) != std::string::npos);
+        CHECK_FALSE(fs::exists(directory / "a.ppm"));
+    }
+    CHECK(run("scene", {"a.ppm", "flat", "half-lambert"}).exit_code == 0);
+}
+
+TEST_CASE("generate: programs name the CA and RE that their comments cite") {
+    const fs::path directory = scratch_directory();
+    for (const std::string& target : {std::string("cpp"), std::string("opengl")}) {
+        generate({"--target", target, "-o", (directory / target).string()});
+        for (const std::string& file : {std::string("scene.cpp"), std::string("README.md")}) {
+            const std::string text = read_file(directory / target / file);
+            CHECK(text.find("Commonality Analysis for Family of Lighting Models") != std::string::npos);
+            CHECK(text.find("Rendering equation") != std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("generate: a newer compiler's warnings do not fail the build of a program") {
+    for (const char* const target : {"cpp", "opengl"}) {
+        const fs::path directory = scratch_directory() / target;
+        generate({"--target", target, "-o", directory.string()});
+        const std::string cmake = read_file(directory / "CMakeLists.txt");
+        CHECK(cmake.find("-Wall -Wextra") != std::string::npos);
+        CHECK(cmake.find("-Werror") == std::string::npos);
+    }
+}
+
+TEST_CASE("generate: errors name the problem and the remedy") {
+    const fs::path directory = scratch_directory();
+    const auto expect = [&](const std::vector<std::string>& arguments, int code, const std::string& message) {
+        std::vector<std::string> words{"generate"};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const CommandResult result = run_candela(words);
+        INFO(result.err);
+        CHECK(result.exit_code == code);
+        CHECK(result.err.find(message) != std::string::npos);
+    };
+    const std::string out = (directory / "program").string();
+    expect({}, 2, "--target is missing");
+    expect({"--target", "opengI"}, 2, "did you mean 'opengl'?");
+    expect({"--target", "cpp", "-o", out, "--models", "lambrt"}, 2, "did you mean 'lambert'?");
+    expect({"--target", "cpp", "-o", out, "--reflection", "dielectric"}, 1, "reflection/dielectric");
+    expect({"--target", "cpp", "-o", out, CANDELA_TEST_SOURCE "/docs/examples/glass.toml"}, 1, "environment");
+    expect({"--target", "cpp", "-o", out, "missing.toml"}, 1, "missing.toml");
+    expect({"--target", "cpp", "-o", out, "--set", "light.lamp.intensity=-1"}, 3, "intensity");
+    CHECK_FALSE(fs::exists(out));
+    write_file(directory / "file", "");
+    expect({"--target", "cpp", "-o", (directory / "file").string()}, 1, "cannot be created");
+#ifdef CANDELA_TEST_FAULTY_PLUGINS
+    for (const char* const target : {"webgl", "three"})
+        expect({"--target", target, "-o", out, "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS, "--reflection",
+                "faultless"},
+               1, "reflection/faultless has no kernel");
+#endif
+}
+
+namespace {
+
+/// The number of lines that are neither blank nor comments.
+int written_lines(const std::string& text) {
+    int count = 0;
+    for (std::size_t begin = 0; begin < text.size();) {
+        const std::size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string line = text.substr(begin, end - begin);
+        const std::size_t first = line.find_first_not_of(' ');
+        if (first != std::string::npos && line.compare(first, 2, "//") != 0) ++count;
+        begin = end + 1;
+    }
+    return count;
+}
+
+}  // namespace
+
+TEST_CASE("generate: docs/generated-programs.md states the line counts of the default scene's programs") {
+    const fs::path directory = scratch_directory();
+    generate({"--target", "cpp", "-o", (directory / "cpp").string()});
+    generate({"--target", "opengl", "-o", (directory / "opengl").string()});
+    const int cpp = written_lines(read_file(directory / "cpp/scene.cpp"));
+    const int opengl = written_lines(read_file(directory / "opengl/scene.cpp")) +
+                       written_lines(read_file(directory / "opengl/meshes.h"));
+    const fs::path cube = CANDELA_TEST_SOURCE "/docs/examples/cube.toml";
+    const std::string page = read_file(CANDELA_TEST_SOURCE "/docs/generated-programs.md");
+    INFO(fmt::format("C++ {}, OpenGL {}, scene {}", cpp, opengl, written_lines(read_file(cube))));
+    CHECK(page.find(fmt::format("| C++ alone | {} |", cpp)) != std::string::npos);
+    CHECK(page.find(fmt::format("| OpenGL 3.3 | {} |", opengl)) != std::string::npos);
+    CHECK(page.find(fmt::format("| Candela, as a scene file | {} |", written_lines(read_file(cube)))) !=
+          std::string::npos);
+
+    REQUIRE(run_candela({"render", cube.string(), "-o", (directory / "cube.ppm").string()}).exit_code == 0);
+    REQUIRE(run_candela({"render", "-o", (directory / "default.ppm").string()}).exit_code == 0);
+    CHECK(read_file(directory / "cube.ppm") == read_file(directory / "default.ppm"));
+}
