@@ -1,4 +1,4 @@
-// What every stage uses: messages, files, processes, memory, texts.
+// The tools of all stages: messages, files, processes, memory, texts.
 export module candela.util;
 
 export import :arrays;
