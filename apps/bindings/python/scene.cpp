@@ -103,7 +103,7 @@ ReadScene::ReadScene(RegistryPointer registry, SceneRequest request, int threads
     : registry_(std::move(registry)), request_(std::move(request)), threads_(threads) {
     Diagnostics diagnostics;
     SceneDraft draft = valid_draft(request_, registry_->registry(), diagnostics);
-    auto compiled = compile(draft, registry_->registry(), diagnostics, threads_);
+    auto compiled = build(draft, registry_->registry(), diagnostics, threads_);
     if (!compiled) throw InvalidInput(InvalidInput::What::scene, diagnostics);
     scene_ = std::move(draft.scene);
     compiled_ = *std::move(compiled);
