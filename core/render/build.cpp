@@ -314,7 +314,7 @@ class Compiler {
     }
 
     static bool needs_tree(const RenderObject& solid) {
-        return solid.surface.reflection->shows_surroundings() && !solid.tree;
+        return solid.surface.reflection->shows_environment() && !solid.tree;
     }
 
     void make_trees() {

@@ -195,7 +195,7 @@ class Exporter {
         exported.needs_tangent = instance->needs_tangent();
         exported.needs_position = instance->needs_position();
         exported.needs_uv = instance->needs_uv();
-        exported.shows_surroundings = instance->shows_surroundings();
+        exported.shows_surroundings = instance->shows_environment();
         if (exported.shows_surroundings && !request_.abilities.surroundings) {
             throw Error(ErrorCategory::failure,
                         fmt::format("reflection/{} shows what is behind and around an object by following "

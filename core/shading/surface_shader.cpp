@@ -120,7 +120,7 @@ void clear(const Vec3Span& span, std::size_t count) {
 
 /// The number of points of a batch that are lit: whole vectors, unless rays are followed from each of them.
 std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
-    return surface.reflection->shows_surroundings() ? points.count : points.filled;
+    return surface.reflection->shows_environment() ? points.count : points.filled;
 }
 
 }  // namespace
@@ -294,7 +294,7 @@ void SurfaceShader::check_steps(const SurfaceModels& surface, const Interior& in
 }
 
 bool SurfaceShader::reflect_all_lights(const SurfaceModels& surface, const SurfacePoints& points) {
-    if (other_lights_.size() == lights_.size() || surface.reflection->shows_surroundings()) return false;
+    if (other_lights_.size() == lights_.size() || surface.reflection->shows_environment()) return false;
     const std::size_t count = lit_of(surface, points);
     find_tangents(surface, points, count);
     SurfaceBatch batch = lit_surface(surface, points, count);
@@ -362,7 +362,7 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
             look_at(PluginKind::reflection, surface.reflection_plugin, {&ambient_});
         }
     }
-    if (surface.reflection->shows_surroundings() && scene_.environment != nullptr) {
+    if (surface.reflection->shows_environment() && scene_.environment != nullptr) {
         if (surroundings_ == nullptr)
             surroundings_ = std::make_unique<ObjectEnvironment>(*scene_.environment);
         surroundings_->set_object(surface, interior);

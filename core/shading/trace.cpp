@@ -57,7 +57,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
         trace.corner_position[k] = first_of(points.corner_position[k]);
         trace.corner_normal[k] = first_of(points.corner_normal[k]);
     }
-    const std::size_t count = surface.reflection->shows_surroundings() ? points.count : points.filled;
+    const std::size_t count = surface.reflection->shows_environment() ? points.count : points.filled;
     const ReceiverBatch receivers{
         .count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()};
     const SurfaceBatch batch = lit_surface(surface, points, count);
@@ -100,7 +100,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
             add({.light = i, .diffuse = first_of(light_diffuse_)});
         }
     }
-    if (surface.reflection->shows_surroundings()) {
+    if (surface.reflection->shows_environment()) {
         clear();
         guarded(PluginKind::reflection, surface.reflection_plugin,
                 [&] { surface.reflection->show_environment(batch, *surroundings_, reflected); });

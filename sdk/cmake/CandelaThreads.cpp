@@ -182,13 +182,13 @@ void call(const candela::ReflectionModel& model, Work& work) {
                   {.to_light = as_input(work.light).span(), .diffuse = intensity, .specular = intensity},
                   reflected);
     model.reflect_ambient(surface, intensity, reflected);
-    if (!model.shows_surroundings()) {
+    if (!model.shows_environment()) {
         const candela::PunctualLight lamp{.position = {2, 3, 4}, .diffuse = {1, 1, 1}, .specular = {1, 1, 1}};
         const candela::PunctualLighting lighting{
             .observer = {0, 0, 5}, .ambient = {0.1f, 0.1f, 0.1f}, .lights = {&lamp, 1}};
         model.reflect_all_lights(surface, lighting, work.results[0].span());
     }
-    if (model.shows_surroundings()) {
+    if (model.shows_environment()) {
         SameEverywhere environment;
         model.show_environment(surface, environment, reflected);
     }

@@ -87,7 +87,7 @@ class ColorfulEnvironment final : public candela::Environment {
 };
 
 bool can_reflect_punctual(const candela::ReflectionModel& model, candela::SurfaceBatch point) {
-    if (model.shows_surroundings()) return false;
+    if (model.shows_environment()) return false;
     point.to_observer = {};
     Vec3 intensity;
     return model.reflect_all_lights(point, punctual_lighting(), {&intensity.x, &intensity.y, &intensity.z});
@@ -138,7 +138,7 @@ BatchSubject reflection_subject(const Values& values, std::optional<candela::Rgb
                                      model->reflect_all_lights(points, punctual_lighting(), out.vec3(0));
                                  }});
     }
-    if (model->shows_surroundings()) {
+    if (model->shows_environment()) {
         subject.calls.push_back(
             {"show_environment", outputs, true, false, [=](std::size_t count, const Arrays& in, Arrays& out) {
                  ColorfulEnvironment environment;

@@ -14,7 +14,7 @@ import sys
 import tempfile
 import urllib.request
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "generate"))
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "targets"))
 import scenes
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "page"))

@@ -155,7 +155,7 @@ void add_reflection(py::module_& module) {
         .def_property_readonly("reads_uv",
                                [](const Reflection& model) { return model.instance().needs_uv(); })
         .def_property_readonly("shows_surroundings",
-                               [](const Reflection& model) { return model.instance().shows_surroundings(); })
+                               [](const Reflection& model) { return model.instance().shows_environment(); })
         .def("evaluate", &evaluate, py::arg("normals"), py::arg("to_observer"), py::arg("to_light"),
              py::arg("color"), py::arg("light"), py::arg("tangents"), py::arg("positions"), py::arg("uv"),
              py::arg("threads"))

@@ -98,9 +98,9 @@ class CANDELA_EXPORT ReflectionModel : public Instance {
     virtual bool reflect_all_lights(const SurfaceBatch& surface, const PunctualLighting& lighting,
                                     const Vec3Span& intensity) const;
 
-    /// Whether the environment are visible in the surface or through it, so that show_environment() is
+    /// Whether the environment is visible in the surface or through it, so that show_environment() is
     /// called.
-    virtual bool shows_surroundings() const noexcept { return false; }
+    virtual bool shows_environment() const noexcept { return false; }
 
     /// Adds to `reflected.specular` what each point shows of the environment, by mirroring and refraction
     /// (CA LC1).

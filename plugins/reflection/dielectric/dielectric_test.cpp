@@ -188,7 +188,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "reflection/dielectric loses no light: in environment of one intensity a clear ball cannot be seen") {
+    "reflection/dielectric loses no light: in surroundings of one intensity a clear ball cannot be seen") {
     for (const double ior : {1.0, 1.33, 2.42, 4.0}) {
         for (const std::int64_t within : {0, 1, 4, 16}) {
             for (double degrees = 0; degrees < 90; degrees += 6) {
@@ -231,7 +231,7 @@ TEST_CASE("reflection/dielectric shows the sum of all reflections within, to a t
     }
 }
 
-TEST_CASE("reflection/dielectric terminates in non-finite environment") {
+TEST_CASE("reflection/dielectric terminates in non-finite surroundings") {
     BallEnvironment around;
     around.intensity = [](Double3) { return std::numeric_limits<double>::quiet_NaN(); };
     CHECK(std::isnan(seen_at(*dielectric(1.5), 0.3, around).x));

@@ -359,7 +359,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("environment: with one intensity from everywhere, no more than that is visible in the object",
+TEST_CASE("surroundings: with one intensity from everywhere, no more than that is visible in the object",
           "[reflection]") {
     class Furnace final : public candela::Environment {
       public:
@@ -379,7 +379,7 @@ TEST_CASE("environment: with one intensity from everywhere, no more than that is
     };
     for (const Values& values : many_values()) {
         const auto model = make<ReflectionModel>(values);
-        if (!model->shows_surroundings()) SKIP("it does not show its environment");
+        if (!model->shows_environment()) SKIP("it does not show its surroundings");
         const Arrays in = inputs_for(1000);
         Arrays out(9, in.count());
         Furnace furnace;

@@ -145,7 +145,7 @@ class KernelRefraction : public ReflectionModel {
     bool needs_tangent() const noexcept override { return surface_.needs_tangent(); }
     bool needs_uv() const noexcept override { return surface_.needs_uv(); }
     bool needs_position() const noexcept override { return surface_.needs_position(); }
-    bool shows_surroundings() const noexcept override { return true; }
+    bool shows_environment() const noexcept override { return true; }
 
     void reflect(const SurfaceBatch& surface, const LightingBatch& light,
                  const ReflectedBatch& reflected) const override {

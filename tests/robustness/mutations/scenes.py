@@ -13,7 +13,7 @@ from pathlib import Path
 import mutation
 
 PLACE = re.compile(r"\S.*?(:\d+:\d+)?: error: ")
-ROOT = Path(__file__).resolve().parents[2]
+ROOT = Path(__file__).resolve().parents[3]
 WORDS = [b"[[object]]", b"[[light]]", b"[observer]", b"[image]", b"[room]", b"[constraints]", b"[shading]", b"[reflection]",
          b"[object.material]", b'include = ["scene.toml"]', b'include = ["/etc/passwd"]', b'include = ["/dev/zero"]',
          b'include = ["no\xc2\x9b.toml"]', b'environment = "scene.toml"', b'type = "mesh"\nfile = "scene.toml"',

@@ -6,7 +6,7 @@
 namespace {
 class OutshinesItsSurroundings final : public faulty::Matt {
     using Matt::Matt;
-    bool shows_surroundings() const noexcept override { return true; }
+    bool shows_environment() const noexcept override { return true; }
     void show_environment(const candela::SurfaceBatch& s, candela::Environment& environment,
                           const candela::ReflectedBatch& out) const override {
         std::vector<float> seen(3 * s.count);
