@@ -19,13 +19,13 @@ follow_build() {
     done
     if [ -t 2 ]; then printf '\r\033[K' >&2; fi
 }
-# Builds only what rendering needs; a developer's configuration stays as it is.
+# Builds only what rendering needs, without targets and most verbs; a developer's configuration stays as it is.
 configure=()
 if [ ! -f "$root/build/release/build.ninja" ]; then
     configure=(-DCANDELA_TESTS=OFF)
     echo "render: building, which takes some four minutes on two cores (log: $log)" >&2
 fi
-if ! { cmake -S "$root" --preset release "${configure[@]}" && cmake --build "$root/build/release" --target candela_runtime; } 2>&1 |
+if ! { cmake -S "$root" --preset release "${configure[@]}" && cmake --build "$root/build/release" --target candela_rendering; } 2>&1 |
     follow_build >"$log"; then
     tail -n 30 "$log" >&2
     echo "render: the build failed; see $log" >&2

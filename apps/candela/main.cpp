@@ -1,10 +1,17 @@
 // candela VERB …: composes lights, shapes, shading and reflection models by name.
+//
+// Compiled twice: candela has the verbs that a picture needs, and candela-verbs has all of them, so that the
+// first picture after a checkout does not wait for the others to be built. Users only see candela, which
+// becomes candela-verbs when necessary.
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdlib>
 #include <iostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -16,6 +23,13 @@
 #include "console/reporting.h"
 #include "console/wrapping.h"
 #include "jobs/heartbeat.h"
+#include "programs/sibling_program.h"
+
+#ifdef CANDELA_ALL_VERBS
+#define ELSEWHERE(run) run
+#else
+#define ELSEWHERE(run) nullptr
+#endif
 
 import candela.util;
 
@@ -26,28 +40,32 @@ using candela::ErrorCategory;
 
 constexpr std::array k_verbs = {
     Verb{"new", "write a starter scene", run_new},
-    Verb{"import", "write a scene that shows a model from another program", run_import},
+    Verb{"import", "write a scene that shows a model from another program", ELSEWHERE(run_import)},
     Verb{"render", "render a scene to a picture", run_render},
-    Verb{"animate", "render an animated scene to frames or a film", run_animate},
-    Verb{"submit", "distribute frames or parts of a picture over processes or a cluster", run_submit},
-    Verb{"status", "show a job's progress and failures", run_status},
-    Verb{"assemble", "put the parts of a picture together", run_assemble},
+    Verb{"animate", "render an animated scene to frames or a film", ELSEWHERE(run_animate)},
+    Verb{"submit", "distribute frames or parts of a picture over processes or a cluster",
+         ELSEWHERE(run_submit)},
+    Verb{"status", "show a job's progress and failures", ELSEWHERE(run_status)},
+    Verb{"assemble", "put the parts of a picture together", ELSEWHERE(run_assemble)},
     Verb{"check", "check a scene and report its errors", run_check},
-    Verb{"edit", "write changes into a scene's files", run_edit},
-    Verb{"explain", "explain how a pixel gets its colour", run_explain},
-    Verb{"generate", "write a program that renders a scene", run_generate},
-    Verb{"verify", "verify that generated programs render what Candela renders", run_verify},
-    Verb{"view", "show a scene in the browser, updated whenever its files are saved", run_view},
-    Verb{"compare", "render a contact sheet that compares models", run_compare},
-    Verb{"bench", "time each stage of rendering a scene", run_bench},
-    Verb{"diff", "compare two pictures", run_diff},
-    Verb{"plot", "plot the lobes of reflection models, or the light emitted by lights", run_plot},
-    Verb{"exercise", "create and grade fill-in-the-formula exercises", run_exercise},
+    Verb{"edit", "write changes into a scene's files", ELSEWHERE(run_edit)},
+    Verb{"explain", "explain how a pixel gets its colour", ELSEWHERE(run_explain)},
+    Verb{"generate", "write a program that renders a scene", ELSEWHERE(run_generate)},
+    Verb{"verify", "verify that generated programs render what Candela renders", ELSEWHERE(run_verify)},
+    Verb{"view", "show a scene in the browser, updated whenever its files are saved", ELSEWHERE(run_view)},
+    Verb{"compare", "render a contact sheet that compares models", ELSEWHERE(run_compare)},
+    Verb{"bench", "time each stage of rendering a scene", ELSEWHERE(run_bench)},
+    Verb{"diff", "compare two pictures", ELSEWHERE(run_diff)},
+    Verb{"plot", "plot the lobes of reflection models, or the light emitted by lights", ELSEWHERE(run_plot)},
+    Verb{"exercise", "create and grade fill-in-the-formula exercises", ELSEWHERE(run_exercise)},
     Verb{"list", "list the installed plugins", run_list},
     Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
-    Verb{"plugin", "create, test and diagnose plugins", run_plugin},
-    Verb{"schema", "print the scene file's JSON Schema or reference", run_schema},
+    Verb{"plugin", "create, test and diagnose plugins", ELSEWHERE(run_plugin)},
+    Verb{"schema", "print the scene file's JSON Schema or reference", ELSEWHERE(run_schema)},
 };
+
+constexpr bool k_is_missing_verbs =
+    std::ranges::any_of(k_verbs, [](const Verb& verb) { return verb.run == nullptr; });
 
 std::string help() {
     std::string text =
@@ -79,6 +97,15 @@ void choose_instruction_set() {
     }
 }
 
+/// Whether a command line is for candela-verbs, and this is not it.
+bool is_for_all_verbs(const std::vector<std::string>& arguments) {
+    const std::size_t at = arguments.size() > 1 && arguments.front() == "help" ? 1 : 0;
+    if (arguments.size() == at) return false;
+    if (arguments[at] == k_task) return k_is_missing_verbs;
+    return std::ranges::any_of(
+        k_verbs, [&](const Verb& verb) { return verb.run == nullptr && verb.name == arguments[at]; });
+}
+
 int run(const std::vector<std::string>& arguments) {
     if (complete_verb(arguments, k_verbs)) return 0;
     if (arguments.empty()) {
@@ -91,8 +118,10 @@ int run(const std::vector<std::string>& arguments) {
         return 0;
     }
     std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+#ifdef CANDELA_ALL_VERBS  // others do not link journals
     if (name == k_task && rest.size() > 1)
         return with_journal(rest.front(), [&] { return run({rest.begin() + 1, rest.end()}); });
+#endif
     if (name == "--help" || name == "-h" || (name == "help" && rest.empty())) {
         std::cout << help();
         return 0;
@@ -134,7 +163,10 @@ bool complete_verb(const std::vector<std::string>& arguments, std::span<const Ve
 }
 
 int main(int argc, char** argv) {
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (is_for_all_verbs(words_to_complete(arguments)))
+        return run_and_report([&]() -> int { exec_sibling(all_verbs(), arguments); });
     prepare_for_signals();
     keep_freed_memory();
-    return run_and_report([&] { return run(words_to_complete({argv + 1, argv + argc})); });
+    return run_and_report([&] { return run(words_to_complete(arguments)); });
 }

@@ -7,9 +7,10 @@
 #include "cli/picture_format.h"
 #include "import/import.h"
 #include "jobs/heartbeat.h"
+#include "programs/sibling_program.h"
 
 Words common_words(const CommandLine& line, const char* verb, bool has_asked) {
-    Words words = {std::filesystem::canonical("/proc/self/exe").string(), verb};
+    Words words = {beside_command("bin/candela").string(), verb};
     for (const std::string& word : scene_words_from(line)) words.push_back(word);
     for (const std::string& word : format_words_from(line)) words.push_back(word);
     if (has_asked) words.emplace_back("--defaults");

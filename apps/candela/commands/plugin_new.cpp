@@ -15,7 +15,7 @@
 #include "console/reporting.h"
 #include "exercise/exercises.h"
 #include "files/output_folder.h"
-#include "templates/plugin_project.h"
+#include "plugin_project/plugin_project.h"
 
 import candela.util;
 

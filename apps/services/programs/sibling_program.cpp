@@ -14,7 +14,10 @@ using candela::Error;
 using candela::ErrorCategory;
 
 fs::path beside_command(const char* relative) {
-    return fs::canonical("/proc/self/exe").parent_path().parent_path() / relative;
+    const fs::path program = fs::canonical("/proc/self/exe"), folder = program.parent_path();
+    // bin/candela or lib/candela/candela-verbs
+    const bool is_sibling = folder.filename() == "candela";
+    return (is_sibling ? folder.parent_path().parent_path() : folder.parent_path()) / relative;
 }
 
 fs::path sibling_program(const char* program, const char* what, const char* where_from) {
@@ -29,6 +32,17 @@ fs::path sibling_program(const char* program, const char* what, const char* wher
 fs::path comparing_program() {
     return sibling_program("candela-diff", "the program that compares pictures",
                            "package candela-openimageio");
+}
+
+fs::path all_verbs() {
+    const fs::path file = beside_command("lib/candela/candela-verbs");
+    if (!fs::exists(file)) {
+        throw Error(ErrorCategory::failure,
+                    fmt::format("this verb is not built yet: scripts/render.sh builds only what a picture "
+                                "needs, and 'cmake --build build/release' the rest ('{}' does not exist)",
+                                file.string()));
+    }
+    return file;
 }
 
 fs::path conformance_kit() {

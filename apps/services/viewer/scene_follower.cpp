@@ -22,7 +22,7 @@
 #include "console/stopwatch.h"
 #include "json/json.h"
 #include "sandbox/process_tree.h"
-#include "templates/plugin_project.h"
+#include "plugin_project/plugin_project.h"
 
 import candela.util;
 

@@ -1,4 +1,4 @@
-#include "templates/plugin_project.h"
+#include "plugin_project/plugin_project.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
