@@ -1,5 +1,5 @@
 # The compiler Candela is built with: C++20 modules need clang 19 or newer and its own dependency scanner. With 22 the
-# core takes less than half the time (docs/adr/0016).
+# core takes less than half the time (docs/internals/adr/0016).
 foreach(candela_clang_version 22 23 21 20 19)
     find_program(CANDELA_CLANGXX clang++-${candela_clang_version})
     if(CANDELA_CLANGXX)

@@ -252,8 +252,9 @@ const TableSchema& top_schema() {
 
 std::span<const TableSchema> scene_schema() {
     static const TableSchema k_animation_table = [] {
-        TableSchema animation = table("animation", "[animation]",
-                                      "makes the scene a film; optional (docs/animation.md)", k_animation);
+        TableSchema animation =
+            table("animation", "[animation]", "makes the scene a film; optional (docs/user/animation.md)",
+                  k_animation);
         animation.tables = {table("orbit", "[animation.orbit]",
                                   "moves the observer around its look-at point, about its 'up', back to the "
                                   "start after the last frame; optional",

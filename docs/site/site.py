@@ -28,7 +28,7 @@ def copy_documents(sources):
     subprocess.run(["esbuild", HERE / "formulas.js", "--bundle", "--minify", "--log-level=error", f"--outfile={sources}/formulas.js"],
                    check=True)
     # A link to a folder leads to a list of its contents.
-    for folder in ("docs/adr", "docs/examples", "docs/examples/plugins"):
+    for folder in ("docs/internals/adr", "docs/examples", "docs/examples/plugins"):
         names = sorted(entry.name for entry in (sources / folder).iterdir() if entry.name != "README.md")
         links = [f"- [{name}]({name}{'/README.md' if (sources / folder / name).is_dir() else ''})" for name in names
                  if (sources / folder / name).is_file() or (sources / folder / name / "README.md").exists()]

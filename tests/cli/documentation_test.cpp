@@ -97,19 +97,19 @@ TEST_CASE("the README's scene is valid, and its mistake is explained as shown th
     CHECK(bad.err == block("README.md", "text"));
 }
 
-TEST_CASE("the scene of docs/scene-file.md is valid") {
+TEST_CASE("the scene of docs/user/scene-file.md is valid") {
     const fs::path directory = scratch_directory();
     write_file(directory / "lights.toml", "[[light]]\ntype = \"ambient\"\n");
     const CommandResult result =
-        check(write_file(directory / "scene.toml", block("docs/scene-file.md", "toml")));
+        check(write_file(directory / "scene.toml", block("docs/user/scene-file.md", "toml")));
     INFO(result.err);
     CHECK(result.exit_code == 0);
 }
 
-TEST_CASE("docs/versioning.md states this interface version and this fingerprint") {
-    const std::string text = read_file(k_source / "docs/versioning.md");
+TEST_CASE("docs/plugins/versioning.md states this interface version and this fingerprint") {
+    const std::string text = read_file(k_source / "docs/plugins/versioning.md");
     const std::string version = std::to_string(CANDELA_INTERFACE_VERSION);
-    CHECK(block("docs/versioning.md", "text") == std::string(CANDELA_ABI) + "\n");
+    CHECK(block("docs/plugins/versioning.md", "text") == std::string(CANDELA_ABI) + "\n");
     CHECK(text.find("| interface version, `" + version + "` |") != std::string::npos);
     CHECK(text.find("`candela-plugin-interface-" + version + "`") != std::string::npos);
     CHECK(text.find("this is '" + std::string(CANDELA_ABI)) != std::string::npos);
@@ -140,8 +140,9 @@ TEST_CASE("the README's table of models names shipped plugins, and nothing else"
     CHECK(unknown.empty());
 }
 
-TEST_CASE("docs/equations.md has a row for every light, reflection model and shading model of the README") {
-    std::string table = table_rows("docs/equations.md", "");
+TEST_CASE(
+    "docs/user/equations.md has a row for every light, reflection model and shading model of the README") {
+    std::string table = table_rows("docs/user/equations.md", "");
     std::ranges::transform(table, table.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     std::string missing;
@@ -156,7 +157,7 @@ TEST_CASE("docs/equations.md has a row for every light, reflection model and sha
             if (!is_there) missing += " " + kind + "/" + name;
         }
     }
-    INFO("docs/equations.md has no row for" << missing);
+    INFO("docs/user/equations.md has no row for" << missing);
     CHECK(missing.empty());
 }
 
@@ -169,8 +170,9 @@ TEST_CASE("the commands in the documentation can be run as printed") {
     for (const char* const picture : {"a.png", "b.png", "before.png", "after.png", "before.exr", "after.exr"})
         REQUIRE(run({"render", "-o", picture, "--width", "64", "--height", "64"}).exit_code == 0);
     std::vector<fs::path> pages{"README.md"};
-    for (const auto& entry : fs::directory_iterator(k_source / "docs"))
-        if (entry.path().extension() == ".md") pages.push_back("docs" / entry.path().filename());
+    for (const fs::path folder : {"docs", "docs/user", "docs/plugins", "docs/internals"})
+        for (const auto& entry : fs::directory_iterator(k_source / folder))
+            if (entry.path().extension() == ".md") pages.push_back(folder / entry.path().filename());
     const std::set<std::string> verbs{"check", "compare", "describe", "diff",
                                       "edit",  "explain", "list",     "plot"};
     int count = 0;

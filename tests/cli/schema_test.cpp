@@ -56,12 +56,13 @@ CommandResult schema(const std::vector<std::string>& arguments) {
 
 // A model is its folder: adding one must not require a section here, but every existing section must be
 // right.
-TEST_CASE("docs/scene-reference.md is the output of candela schema for the plugins that it describes") {
+TEST_CASE("docs/user/scene-reference.md is the output of candela schema for the plugins that it describes") {
     const CommandResult page = schema({"--format", "markdown"});
     CHECK(page.exit_code == 0);
     CHECK(page.err.empty());
     const auto printed = sections(page.out);
-    const auto committed = sections(read_file(fs::path(CANDELA_TEST_SOURCE) / "docs/scene-reference.md"));
+    const auto committed =
+        sections(read_file(fs::path(CANDELA_TEST_SOURCE) / "docs/user/scene-reference.md"));
     std::string stale;
     for (const auto& [heading, lines] : committed) {
         const auto found = printed.find(heading);
@@ -73,10 +74,10 @@ TEST_CASE("docs/scene-reference.md is the output of candela schema for the plugi
         const bool is_plugin = heading.find('/') != std::string::npos;
         if (!is_plugin && !committed.contains(heading)) stale += " '" + heading + "'";
     }
-    INFO("docs/scene-reference.md is stale in"
+    INFO("docs/user/scene-reference.md is stale in"
          << stale
          << "; write it again: build/release/bin/candela schema --format "
-            "markdown > docs/scene-reference.md");
+            "markdown > docs/user/scene-reference.md");
     CHECK(committed.size() > 30);
     CHECK(stale.empty());
 }

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Builds the program of docs/embedding.md as the page describes, with only an installed Candela: with g++ and Candela's own compiler,
+# Builds the program of docs/user/embedding.md as the page describes, with only an installed Candela: with g++ and Candela's own compiler,
 # with CMake and with pkg-config. It must render the same as the command.
 #   embedding.sh PREFIX SCRATCH_DIR CMAKE CXX
 set -euo pipefail
 prefix=$1 scratch=$2 cmake=$3 cxx=$4
-page=$(cd "$(dirname "$0")/../.." && pwd)/docs/embedding.md
+page=$(cd "$(dirname "$0")/../.." && pwd)/docs/user/embedding.md
 fail() { printf 'FAILED: %s\n' "$*" >&2; exit 1; }
 quiet() { "$@" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; fail "$*"; }; }
 # block LANGUAGE: the page's block of that language.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Follows docs/plugin-tutorial.md with only an installed Candela.
+"""Follows docs/plugins/tutorial.md with only an installed Candela.
 
     tutorial.py BUILD_DIR SCRATCH_DIR CMAKE DOCUMENT
 

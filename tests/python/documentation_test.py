@@ -1,4 +1,4 @@
-"""The code of docs/python.md, one block after another, as a reader would type it."""
+"""The code of docs/user/python.md, one block after another, as a reader would type it."""
 import contextlib
 import io
 import os
@@ -9,7 +9,7 @@ import unittest
 
 import candela
 
-PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/python.md"
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/user/python.md"
 
 SCENE = {
     "observer": {"position": [0, 0, 4], "look_at": [0, 0, 0]},

@@ -1,4 +1,4 @@
-"""Runs the notebooks of docs/python, cell by cell, and compares their results with known ones. The only Jupyter feature that they need is
+"""Runs the notebooks of docs/examples/notebooks, cell by cell, and compares their results with known ones. The only Jupyter feature that they need is
 showing the value of a cell's last line; installing Jupyter for that would take 30 packages."""
 import ast
 import contextlib
@@ -9,7 +9,7 @@ import unittest
 
 import numpy as np
 
-NOTEBOOKS = pathlib.Path(__file__).resolve().parents[2] / "docs/python"
+NOTEBOOKS = pathlib.Path(__file__).resolve().parents[2] / "docs/examples/notebooks"
 
 
 def run(name):

@@ -262,7 +262,7 @@ class Schema(unittest.TestCase):
         for file in sorted((SOURCE / "docs/examples").glob("*.toml")):
             scenes[file.name] = file.read_text()
         self.assertGreater(len(scenes), 1)
-        for page in ("README.md", "docs/scene-file.md", "docs/scene-reference.md"):
+        for page in ("README.md", "docs/user/scene-file.md", "docs/user/scene-reference.md"):
             found = blocks(page)
             self.assertTrue(found, page)
             scenes.update({f"{page}, block {i}": text for i, text in enumerate(found)})

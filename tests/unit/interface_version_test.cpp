@@ -1,4 +1,5 @@
-// docs/versioning.md: a plugin works only with the interface version, and the layout, that it was built for.
+// docs/plugins/versioning.md: a plugin works only with the interface version, and the layout, that it was
+// built for.
 #include "candela/plugin/abi.h"
 
 #include <catch2/catch_test_macros.hpp>

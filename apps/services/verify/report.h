@@ -10,7 +10,7 @@
 
 namespace verify {
 
-/// The limits for a program's picture; docs/adr/0007 has the underlying measurements.
+/// The limits for a program's picture; docs/internals/adr/0007 has the underlying measurements.
 struct Limits {
     // For all pixels away from edges, including the background, in levels (1/255):
     double maximum = 2;

@@ -4,7 +4,7 @@
 >>> scene = candela.Scene.load("scene.toml")
 >>> picture = scene.render()                  # a NumPy array, (height, width, 3), of uint8
 
-Directions are unit vectors, lengths metres, angles degrees; y is up. See docs/python.md.
+Directions are unit vectors, lengths metres, angles degrees; y is up. See docs/user/python.md.
 """
 
 from ._candela import __version__

@@ -109,7 +109,7 @@ def kernel_reflection(source: str, **values: Any) -> Reflection:
     source
         A struct of parameters (``float``, ``int``, ``vec3``), a function ``KERNEL Reflected NAME_reflect(Material m, Surface s, vec3
         to_light)``, and, if it reflects ambient light, ``KERNEL vec3 NAME_reflect_ambient(Material m, Surface s)``, in the language of
-        docs/kernel-language.md, like the ``.kernel`` file of a plugin.
+        docs/plugins/kernel-language.md, like the ``.kernel`` file of a plugin.
     values
         The values of all parameters.
 

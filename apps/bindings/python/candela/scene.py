@@ -19,7 +19,7 @@ def _settings(values: Mapping[str, Any]) -> list[tuple[str, str]]:
 class Explanation(dict[str, Any]):
     """How a pixel gets its colour, as in `candela explain --json`: the visible triangles, N, V, L, R, H, the arriving and the reflected
     light of each light, every value that the models' kernels compute on the way, the sum, and the bytes. Printing it gives readable text;
-    see docs/explaining.md.
+    see docs/user/explaining.md.
     """
 
     def __init__(self, json_text: str, text: str) -> None:
@@ -100,7 +100,7 @@ class Scene:
     def terms(self, *names: str) -> dict[str, Picture]:
         """The terms that add up to the picture, and the values it was computed from, as ``float32`` by name: ``"ambient"``,
         ``"diffuse"``, ``"specular"``, ``"light.lamp"`` and the like, linear and of shape (height, width, 3); ``"normal"``, ``"position"``,
-        ``"depth"`` and so on, with one number (height, width), two or three for each pixel. Without names: all. See docs/terms.md."""
+        ``"depth"`` and so on, with one number (height, width), two or three for each pixel. Without names: all. See docs/user/terms.md."""
         return {name: Picture(array, self.core.is_srgb) for name, array in _candela.terms(self.core, names or ["all"]).items()}
 
     def explain(self, x: int, y: int) -> Explanation:

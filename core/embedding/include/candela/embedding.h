@@ -1,5 +1,5 @@
 // Candela in a program built by any C++20 compiler: scenes from files or text, pictures in memory. Programs
-// that need more, and are built by clang with modules, import candela.core instead (docs/embedding.md).
+// that need more, and are built by clang with modules, import candela.core instead (docs/user/embedding.md).
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,5 @@
 // The kernel language, for untrusted texts: a text is parsed and checked, and only what was understood is
-// compiled. docs/kernel-language.md has the grammar.
+// compiled. docs/plugins/kernel-language.md has the grammar.
 #pragma once
 
 #include <cstddef>
