@@ -161,6 +161,22 @@ TEST_CASE(
     CHECK(missing.empty());
 }
 
+TEST_CASE("the twelve files to read in docs/internals/architecture.md exist") {
+    std::istringstream lines(table_rows("docs/internals/architecture.md", ""));
+    std::set<std::string> found;
+    std::string missing;
+    for (std::string line; std::getline(lines, line);) {
+        if (std::isdigit(static_cast<unsigned char>(line[2])) == 0) continue;
+        const std::size_t begin = line.find('`') + 1;
+        const std::string file = line.substr(begin, line.find('`', begin) - begin);
+        found.insert(file);
+        if (!fs::is_regular_file(k_source / file)) missing += " " + file;
+    }
+    INFO("missing:" << missing);
+    CHECK(missing.empty());
+    CHECK(found.size() == 12);
+}
+
 TEST_CASE("the commands in the documentation can be run as printed") {
     const fs::path d = scratch_directory();
     const auto run = [&](const std::vector<std::string>& words) {
