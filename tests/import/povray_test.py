@@ -75,7 +75,7 @@ class Materials:
             return Material(color, diffuse, diffuse)
         if part.material in self.library:
             found = self.library[part.material]
-            # docs/user/importing.md: no highlight without an exponent, no more is sent out than is received, and white ambient
+            # docs/user/meshes.md: no highlight without an exponent, no more is sent out than is received, and white ambient
             # light is the surface's colour.
             ka, kd, ks = (np.array(found[key]) for key in ("Ka", "Kd", "Ks"))
             ks = ks * (found["Ns"][0] > 0)

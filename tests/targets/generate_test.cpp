@@ -284,8 +284,7 @@ int written_lines(const std::string& text) {
 
 }  // namespace
 
-TEST_CASE(
-    "generate: docs/user/generated-programs.md states the line counts of the default scene's programs") {
+TEST_CASE("generate: docs/user/exporting.md states the line counts of the default scene's programs") {
     const fs::path directory = scratch_directory();
     generate({"--target", "cpp", "-o", (directory / "cpp").string()});
     generate({"--target", "opengl", "-o", (directory / "opengl").string()});
@@ -293,7 +292,7 @@ TEST_CASE(
     const int opengl = written_lines(read_file(directory / "opengl/scene.cpp")) +
                        written_lines(read_file(directory / "opengl/meshes.h"));
     const fs::path cube = CANDELA_TEST_SOURCE "/docs/examples/cube.toml";
-    const std::string page = read_file(CANDELA_TEST_SOURCE "/docs/user/generated-programs.md");
+    const std::string page = read_file(CANDELA_TEST_SOURCE "/docs/user/exporting.md");
     INFO(fmt::format("C++ {}, OpenGL {}, scene {}", cpp, opengl, written_lines(read_file(cube))));
     CHECK(page.find(fmt::format("| C++ alone | {} |", cpp)) != std::string::npos);
     CHECK(page.find(fmt::format("| OpenGL 3.3 | {} |", opengl)) != std::string::npos);

@@ -178,7 +178,7 @@ int run_render(const std::vector<std::string>& arguments) {
         "terms", po::value<std::string>()->value_name("TERM,..."),
         "also write the terms that make up the picture: diffuse, specular, normal, depth, light.NAME ... or "
         "all "
-        "(docs/user/terms.md); as layers of an .exr, otherwise as files next to the picture")(
+        "(docs/user/explaining.md); as layers of an .exr, otherwise as files next to the picture")(
         "part", po::value<std::string>()->value_name("K/N"),
         "render only the K-th of N bands of rows, into the folder FILE.parts; candela assemble combines "
         "them")("verbose", "print how long each stage took");

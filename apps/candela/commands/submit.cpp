@@ -159,7 +159,7 @@ int run_submit(const std::vector<std::string>& arguments) {
         "candela animate or candela render, run on this machine, by a queue, or by anything that can run "
         "command lines. All frames of the scene are checked first. Finished tasks are left out, so run the "
         "same command again to finish the rest. Tasks need the scene and the folder of the pictures; running "
-        "one twice or concurrently is harmless (docs/user/clusters.md).");
+        "one twice or concurrently is harmless (docs/user/animation.md).");
     add_frames_options(line);
     line.options()("engine", po::value<std::string>()->value_name("NAME")->default_value("local"),
                    "what runs the tasks: local: this machine; slurm: sbatch; print: anything that runs the "

@@ -59,7 +59,7 @@ void add_variant_options(CommandLine& line) {
                    "values of one parameter, such as light.lamp.intensity=1,3; can "
                    "be repeated")("terms", po::value<std::string>()->value_name("TERM,..."),
                                   "the term that each picture shows: picture (the whole), diffuse, specular, "
-                                  "normal, depth, light.NAME ... (docs/user/terms.md)");
+                                  "normal, depth, light.NAME ... (docs/user/explaining.md)");
 }
 
 std::vector<Axis> axes_from(const CommandLine& line) {

@@ -174,8 +174,7 @@ int run_verify(const std::vector<std::string>& arguments) {
         "candela verify [SCENE...] [options]",
         "Generate programs from a scene, build and run them, and compare their pictures with Candela's own. "
         "Exit code 4 means that a picture differs, away from edges, by more than the tolerance or by 0.1 on "
-        "average; that it is brighter, darker or displaced as a whole (docs/user/generated-programs.md has "
-        "the "
+        "average; that it is brighter, darker or displaced as a whole (docs/user/exporting.md has the "
         "limits); or that too little is visible to decide.");
     line.options()("target,t", po::value<std::string>()->value_name("NAME")->default_value("all"),
                    help.c_str())("tolerance",

@@ -46,8 +46,8 @@ class TermRenderer {
     /// The term's values, unchanged.
     candela::Film values(const NamedTerm& term);
 
-    /// The values for display: those that are not intensities are mapped to colours (docs/user/terms.md),
-    /// unless the format's pixels are floats.
+    /// The values for display: those that are not intensities are mapped to colours
+    /// (docs/user/explaining.md), unless the format's pixels are floats.
     candela::Film picture(const NamedTerm& term, candela::PixelType pixels);
 
   private:
