@@ -161,6 +161,30 @@ TEST_CASE(
     CHECK(missing.empty());
 }
 
+TEST_CASE("the pages that help, comments and scripts name exist") {
+    const std::string path = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_./";
+    std::string missing;
+    int count = 0;
+    for (const char* const folder : {"apps", "core", "plugins", "scripts", "sdk", "tests"}) {
+        for (const auto& entry : fs::recursive_directory_iterator(k_source / folder)) {
+            if (!entry.is_regular_file()) continue;
+            const std::string text = read_file(entry.path());
+            for (std::size_t at = text.find("docs/"); at != std::string::npos;
+                 at = text.find("docs/", at + 1)) {
+                const std::string name = text.substr(at, text.find_first_not_of(path, at) - at);
+                const std::size_t end = name.find(".md");
+                if (end == std::string::npos || name.starts_with("docs/site")) continue;
+                ++count;
+                if (!fs::exists(k_source / name.substr(0, end + 3)))
+                    missing += "\n" + entry.path().string() + ": " + name;
+            }
+        }
+    }
+    INFO("missing:" << missing);
+    CHECK(missing.empty());
+    CHECK(count > 20);
+}
+
 TEST_CASE("the twelve files to read in docs/internals/architecture.md exist") {
     std::istringstream lines(table_rows("docs/internals/architecture.md", ""));
     std::set<std::string> found;
