@@ -21,8 +21,8 @@
 #include "console/reporting.h"
 #include "console/stopwatch.h"
 #include "json/json.h"
-#include "sandbox/process_tree.h"
 #include "plugin_project/plugin_project.h"
+#include "sandbox/process_tree.h"
 
 import candela.util;
 
