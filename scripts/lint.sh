@@ -2,7 +2,7 @@
 # Checks the form of the sources: clang-format and the prose of all of them, clang-tidy for those that a change may have affected.
 # Makes the release build first.
 #   scripts/lint.sh              files that differ from upstream, committed or not, and those that include or import them
-#   scripts/lint.sh --since REV  like that, against REV
+#   scripts/lint.sh --since REV [--minutes N]  like that, against REV, for at most N minutes
 #   scripts/lint.sh --all        everything (half an hour with two cores)
 #   scripts/lint.sh --format     only clang-format and the prose, which takes seconds
 #   scripts/lint.sh --commits REV   only the subjects of the commits since REV
@@ -32,11 +32,15 @@ compared_with() {
 }
 
 scope=changed
+limit=()
 case "${1-}" in
     '') ;;
     --all | --format) scope=${1#--}; [ $# -eq 1 ] || usage ;;
     --commits) [ $# -eq 2 ] || usage; exec python3 -B "$root/scripts/prose.py" --commits "$2" ;;
-    --since) [ $# -eq 2 ] || usage; CANDELA_LINT_SINCE=$2 ;;
+    --since)
+        [ $# -eq 2 ] || { [ $# -eq 4 ] && [ "$3" = --minutes ] && limit=("$3" "$4"); } || usage
+        CANDELA_LINT_SINCE=$2
+        ;;
     *) usage ;;
 esac
 
@@ -51,7 +55,7 @@ cmake --preset release -DCANDELA_TESTS=ON >/dev/null
 cmake --build --preset release >/dev/null
 if [ -n "$since" ]; then
     echo "lint: changes since $(git log -1 --format='%h (%s)' "$since")"
-    python3 -B "$root/scripts/tidy.py" build/release build/tidy --since "$since"
+    python3 -B "$root/scripts/tidy.py" build/release build/tidy --since "$since" "${limit[@]}"
 else
     python3 -B "$root/scripts/tidy.py" build/release build/tidy --all
 fi
