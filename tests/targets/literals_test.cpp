@@ -50,7 +50,7 @@ TEST_CASE("a template's placeholders are filled in one pass, and an unfilled one
 
 TEST_CASE("names in comments are safe: ASCII, one line, without quotes, and short, whatever their bytes") {
     CHECK(ascii_identifier("'Größe'") == "Groesse");
-    CHECK(ascii_identifier("Ёлка, Φῶς") == "_lka, F_s");
+    CHECK(ascii_identifier("Ёлка, Φῶς") == "____, ___");
     CHECK(ascii_identifier("a\nb*/\\") == "a_b___");
     CHECK(ascii_identifier("\xc3") == "_");
     CHECK(ascii_identifier("a\xff\xe2\x82z") == "a__z");

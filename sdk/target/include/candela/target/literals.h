@@ -33,8 +33,8 @@ double shortest(float x);
 std::string identifier(std::string_view name, std::string_view suffix);
 
 /// A user's name as one line that is safe in a comment of C++, CMake or Markdown: letters, digits and a few
-/// marks; '_' replaces everything else. Latin, Greek and Cyrillic letters become ASCII ("Größe" is
-/// "Groesse"), and quotes around a label are removed.
+/// marks; '_' replaces everything else. Latin letters become ASCII ("Größe" is "Groesse"), and quotes around
+/// a label are removed.
 std::string ascii_identifier(std::string_view name);
 /// Escapes text for an HTML page. Bytes that are not UTF-8 are replaced.
 std::string html_text(std::string_view text);
