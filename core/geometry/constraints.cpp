@@ -82,13 +82,13 @@ class Checker {
         }
         for (const LightSource& light : scene_.lights) {
             if (const auto p = position_of(light)) {
-                report_if_outside("light " + light.label, {*p, *p}, half, light.position_place);
+                report_if_outside("light " + light.label.text(), {*p, *p}, half, light.position_place);
             }
         }
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
             const Object& object = scene_.objects[i];
             if (!surfaces_[i].empty())
-                report_if_outside("object " + object.label, boxes_[i], half, object.position_place);
+                report_if_outside("object " + object.label.text(), boxes_[i], half, object.position_place);
         }
     }
 
@@ -119,12 +119,12 @@ class Checker {
         for (const LightSource& light : scene_.lights) {
             const auto p = position_of(light);
             if (!p) continue;
-            const std::string what = "light " + light.label;
+            const std::string what = "light " + light.label.text();
             const auto [first, is_new] = taken.try_emplace(components(*p + Vec3{}), &light);
             if (!is_new) {
                 diagnostics_.error(
                     light.position_place,
-                    fmt::format("{} is at the same place as light {}{}", what, first->second->label,
+                    fmt::format("{} is at the same place as light {}{}", what, first->second->label.text(),
                                 at(first->second->position_place)),
                     "move one of them, or replace both by one light with the sum of their intensities");
             }
@@ -141,7 +141,7 @@ class Checker {
             if (surfaces_[i].empty() || is_hollow(i) || !body(i).contains(point)) continue;
             diagnostics_.error(
                 place,
-                fmt::format("{} is inside object {}{}", what, scene_.objects[i].label,
+                fmt::format("{} is inside object {}{}", what, scene_.objects[i].label.text(),
                             at(scene_.objects[i].place)),
                 "move one of them; if the object is a room or a shade, add to it: encloses = true");
         }
@@ -167,8 +167,8 @@ class Checker {
                 const Object& first = scene_.objects[j];
                 const Object& second = scene_.objects[i];
                 report_overlap(second.position_place,
-                               fmt::format("object {} overlaps object {}{}", second.label, first.label,
-                                           at(first.position_place)));
+                               fmt::format("object {} overlaps object {}{}", second.label.text(),
+                                           first.label.text(), at(first.position_place)));
                 if (++found == k_most_overlaps) {
                     report_overlap(second.position_place,
                                    fmt::format("{} objects overlap; the rest is not checked", found));

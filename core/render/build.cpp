@@ -128,13 +128,13 @@ class Compiler {
                 compiled_.lights.push_back(std::move(before_->compiled.lights[i]));
                 continue;
             }
-            guarded("light " + light.label, light.place,
+            guarded("light " + light.label.text(), light.place,
                     [&] { compiled_.lights.push_back({light.model.name, made<Light>(light.model)}); });
         }
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
             const Object& object = scene_.objects[i];
             RenderObject& solid = compiled_.objects.emplace_back();
-            solid.label = object.label;
+            solid.label = object.label.text();
             if (const Object* const old = object_before(i);
                 old != nullptr && old->color == object.color && old->color_texture == object.color_texture &&
                 old->color_texture_wrap == object.color_texture_wrap && old->shading == object.shading &&
@@ -142,7 +142,7 @@ class Compiler {
                 solid.surface = std::move(before_->compiled.objects[i].surface);
                 continue;
             }
-            guarded("object " + object.label, object.place, [&] {
+            guarded("object " + object.label.text(), object.place, [&] {
                 solid.surface = {.color = decoded(object.color, encoding()),
                                  .color_texture_wrap = object.color_texture_wrap,
                                  .shading_plugin = object.shading.name,
@@ -165,7 +165,7 @@ class Compiler {
                     before_->compiled.objects[i].surface.color_texture;
                 continue;
             }
-            guarded("object " + object.label, object.texture_place, [&] {
+            guarded("object " + object.label.text(), object.texture_place, [&] {
                 const auto [known, is_new] = textures_.try_emplace(object.color_texture);
                 if (is_new) {
                     const TexturePicture read = read_texture(object.color_texture, registry_, encoding());
@@ -188,7 +188,7 @@ class Compiler {
         if (!placed_[i] || !placed_[i]->mesh.u.empty()) return;
         diagnostics_.error(
             object.texture_place,
-            fmt::format("object {} has no texture coordinates, which a texture needs", object.label),
+            fmt::format("object {} has no texture coordinates, which a texture needs", object.label.text()),
             "remove color_texture, or give the shape texture coordinates");
     }
 
@@ -207,7 +207,7 @@ class Compiler {
     /// Runs what a shape plugin or a shading model does to an object.
     template <class Work>
     void guarded(const Object& object, PluginKind kind, const std::string& plugin, Work work) {
-        guarded("object " + object.label, object.place, [&] {
+        guarded("object " + object.label.text(), object.place, [&] {
             try {
                 work();
             } catch (const std::bad_alloc&) {
@@ -285,7 +285,7 @@ class Compiler {
     void say_once(const Object& object, const std::vector<std::string>& warnings) {
         for (const std::string& warning : warnings) {
             if (!said_.insert(warning).second) continue;
-            diagnostics_.warning(object.place, fmt::format("object {}: {}", object.label, warning));
+            diagnostics_.warning(object.place, fmt::format("object {}: {}", object.label.text(), warning));
         }
     }
 
@@ -344,7 +344,8 @@ class Compiler {
             diagnostics_.warning(
                 object.place,
                 fmt::format("object {} is not closed ({} open edge{}), so it is drawn from both sides",
-                            object.label, solid.mesh.open_edges, solid.mesh.open_edges == 1 ? "" : "s"));
+                            object.label.text(), solid.mesh.open_edges,
+                            solid.mesh.open_edges == 1 ? "" : "s"));
         }
     }
 

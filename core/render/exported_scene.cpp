@@ -30,8 +30,8 @@ constexpr const char* k_no_kernel =
     "has no kernel, the text from which its mathematics is generated; programs can be generated only with "
     "models that have one";
 
-std::string name_in(const std::string& label) {
-    const std::string_view name = name_of_label(label).value_or(label);
+std::string name_in(const Label& label) {
+    const std::string name = label.name.empty() ? label.text() : label.name;
     // Targets write labels into comments and pages: a line break would end them.
     std::string shown;
     for (const char c : name) {
@@ -155,7 +155,7 @@ class Exporter {
         if (made_light->sample_count() > 0) functions.push_back("illuminate");
         if (made_light->has_ambient()) functions.push_back("illuminate_ambient");
         const PluginDescriptor& loaded = model(PluginKind::light, light.model.name, functions);
-        to_.lights.push_back({.label = kept(light.label),
+        to_.lights.push_back({.label = kept(light.label.text()),
                               .model = put(to_.light_models, ExportedModel{&loaded}),
                               .values = to_.kept(loaded, light.model.parameters,
                                                  [&]() -> const Light* { return made_light.get(); })});
@@ -211,7 +211,8 @@ class Exporter {
             add_shading(object.shading.name, object.shading.parameters);
             add_reflection(object.reflection.name, object.reflection.parameters);
         } catch (const Error& problem) {
-            throw Error(problem.category(), fmt::format("object {}: {}", object.label, problem.what()));
+            throw Error(problem.category(),
+                        fmt::format("object {}: {}", object.label.text(), problem.what()));
         }
     }
 
@@ -280,7 +281,7 @@ class Exporter {
                 ErrorCategory::failure,
                 fmt::format(
                     "object {} has a texture, which this target does not support; remove color_texture",
-                    object.label));
+                    object.label.text()));
         for (std::size_t i = 0; i < to_.textures.size(); ++i)
             if (to_.textures[i].file == object.color_texture) return i;
         const auto& mip_map = to_.mip_maps.emplace_back(

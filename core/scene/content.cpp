@@ -1,9 +1,10 @@
 module;
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
-#include <optional>
-#include <string_view>
+#include <string>
 #include <vector>
 
 module candela.scene;
@@ -13,10 +14,8 @@ import candela.plugins;
 
 namespace candela {
 
-std::optional<std::string_view> name_of_label(std::string_view label) noexcept {
-    const bool is_quoted = label.size() > 2 && label.front() == '\'' && label.back() == '\'';
-    if (!is_quoted) return std::nullopt;
-    return label.substr(1, label.size() - 2);
+std::string Label::text() const {
+    return name.empty() ? fmt::format("number {}", number) : fmt::format("'{}'", name);
 }
 
 Observer fitted(Observer observer, int width, int height) {

@@ -84,11 +84,20 @@ struct Model {
     friend bool operator==(const Model&, const Model&) = default;
 };
 
-/// The name in a label of a light or an object: lamp in 'lamp'. None if the label is an index.
-CANDELA_EXPORT std::optional<std::string_view> name_of_label(std::string_view label) noexcept;
+/// The author's name for a light or an object, or its number.
+struct Label {
+    std::string name{};      // empty if it has none
+    std::size_t number = 0;  // its index among the lights or objects of the scene's file
+
+    /// As messages say it: 'lamp', in quotes, or number 2.
+    CANDELA_EXPORT std::string text() const;
+    friend inline bool operator==(const Label& a, const Label& b) {
+        return a.name == b.name && (!a.name.empty() || a.number == b.number);
+    }
+};
 
 struct LightSource {
-    std::string label;  // 'lamp', as the scene's author calls it, or an index
+    Label label;
     Model model;
     SourceLocation place;
     SourceLocation position_place{};  // of its 'position', or of the whole light
@@ -106,7 +115,7 @@ enum class TextureWrap : int {
 };
 
 struct Object {
-    std::string label;
+    Label label;
     Model shape;
     Transform transform;
     Vec3 color;                   // 0-255

@@ -196,24 +196,23 @@ class Reader {
         for (std::size_t i = 0; i < all->size(); ++i) visit(*(*all)[i].table(), (*all)[i].place, i);
     }
 
-    /// The name of a light or object for messages; reports a name that is already taken.
-    std::string label_of(const std::string& kind, const TableNode& table, std::size_t index) {
+    /// Reports a name that is already taken.
+    Label label_of(const std::string& kind, const TableNode& table, std::size_t index) {
         const TableNode::Entry* const entry = table.find("name");
         const auto* const name = entry != nullptr ? std::get_if<std::string>(&entry->node.value) : nullptr;
-        if (name == nullptr || name->empty()) return fmt::format("number {}", index);
+        if (name == nullptr || name->empty()) return {.number = index};
         const auto [before, is_new] = names_.try_emplace(kind + ' ' + *name, entry->node.place);
         if (!is_new) {
             const SourceLocation& first = before->second;
             diagnostics_.error(entry->node.place, fmt::format("another {} is called '{}', at {}:{}:{}", kind,
                                                               *name, first.file, first.line, first.column));
         }
-        return fmt::format("'{}'", *name);
+        return {.name = *name, .number = index};
     }
 
-    /// Like label_of(), for messages: as much of the label as fits.
-    static std::string short_label(const std::string& label) {
-        const auto name = name_of_label(label);
-        return name ? fmt::format("'{}'", shortened(*name)) : label;
+    /// As much of the label as fits into a message.
+    static std::string short_text(const Label& label) {
+        return Label{.name = std::string(shortened(label.name)), .number = label.number}.text();
     }
 
     /// Reads a plugin named by `type` with its parameters, which are next to the table's own keys.
@@ -233,9 +232,9 @@ class Reader {
     }
 
     void read_light(const TableNode& table, const SourceLocation& place, std::size_t index) {
-        const std::string label = label_of("light", table, index);
+        const Label label = label_of("light", table, index);
         const TableContext context{
-            fmt::format("[[light]] {}", short_label(label)), {Help::Topic::plugins_of_kind, "light"}, place};
+            fmt::format("[[light]] {}", short_text(label)), {Help::Topic::plugins_of_kind, "light"}, place};
         const ParamSet own = read_parameters(table, schema_of("light").parameters, context, diagnostics_);
         std::optional<Model> model = read_typed("light", PluginKind::light, table, own, context, {});
         // Its position can be checked whatever else is wrong with it.
@@ -251,7 +250,7 @@ class Reader {
         object.label = label_of("object", table, index);
         object.place = place;
         const std::size_t errors = diagnostics_.error_count();
-        const TableContext context{fmt::format("[[object]] {}", short_label(object.label)),
+        const TableContext context{fmt::format("[[object]] {}", short_text(object.label)),
                                    {Help::Topic::plugins_of_kind, "shape"},
                                    place};
         object.position_place = place_of(table, "position", place);
@@ -265,7 +264,7 @@ class Reader {
         object.encloses = boolean(own, "encloses");
         auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"});
         object.shading = models.shading_for(table);
-        object.reflection = models.reflection_for(table, short_label(object.label), place);
+        object.reflection = models.reflection_for(table, short_text(object.label), place);
         if (!shape) return;
         // Its triangles can be checked whatever else is wrong with it.
         if (diagnostics_.error_count() != errors && !has_known_triangles(table, *shape)) return;

@@ -66,8 +66,8 @@ CANDELA_EXPORT std::optional<Scene> read_scene(const SceneRequest& request, Regi
 
 /// A scene as one file, which reads back as the same scene: all defaults filled in, absolute paths. Throws
 /// Error (failure) if the format cannot express a scene that did not come from a file: texts that are not
-/// UTF-8, fractional colours, labels that are not quoted names, shading parameters that differ between
-/// objects.
+/// UTF-8, fractional colours, nameless objects with another number than their index, shading parameters that
+/// differ between objects.
 CANDELA_EXPORT std::string scene_text(const Scene& scene);
 
 /// The texts of those files of a scene that `changes` modify, with the changes applied: values are replaced

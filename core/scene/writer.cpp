@@ -60,15 +60,6 @@ std::string value_text(const Value& value, ParamType type) {
     return type == ParamType::color ? color_text(v) : type == ParamType::rgb ? rgb_text(v) : vector_text(v);
 }
 
-/// The name in a label, if it is not an index.
-std::optional<std::string> name_of(const std::string& label, std::size_t index) {
-    if (const auto name = name_of_label(label)) return std::string(*name);
-    if (label != fmt::format("number {}", index)) {
-        cannot_say(fmt::format("{} is neither a name in quotes nor 'number {}'", label, index));
-    }
-    return std::nullopt;
-}
-
 /// Whether the model has only default parameters.
 bool is_plain(const Model& model) { return model.parameters == ParamSet(model.parameters.schema()); }
 
@@ -207,25 +198,31 @@ class Writer {
                 cannot_say(
                     fmt::format("objects {} and {} have shading models with different parameters, but "
                                 "[shading] can hold only one",
-                                told->label, object.label));
+                                told->label.text(), object.label.text()));
             }
         }
         return told != nullptr ? told->shading : most_common(objects, &Object::shading);
     }
 
+    void add_name(const Label& label, std::size_t index) {
+        if (label.name.empty() && label.number != index)
+            cannot_say(fmt::format("{} has the index {} and no name", label.text(), index));
+        if (!label.name.empty()) add("name", toml_text(label.name));
+    }
+
     void write_light(const LightSource& light, std::size_t index) {
         begin("[[light]]");
-        if (const auto name = name_of(light.label, index)) add("name", toml_text(*name));
+        add_name(light.label, index);
         add("type", toml_text(light.model.name));
-        add_parameters(light.model.parameters, light.label);
+        add_parameters(light.model.parameters, light.label.text());
         end();
     }
 
     void write_object(const Object& object, std::size_t index) {
         begin("[[object]]");
-        if (const auto name = name_of(object.label, index)) add("name", toml_text(*name));
+        add_name(object.label, index);
         add("type", toml_text(object.shape.name));
-        add_parameters(object.shape.parameters, object.label);
+        add_parameters(object.shape.parameters, object.label.text());
         add("position", vector_text(object.transform.position));
         add("rotation", vector_text(object.transform.rotation));
         add("scale", rgb_text(object.transform.scale));
@@ -238,7 +235,7 @@ class Writer {
         end();
         if (object.reflection.parameters.schema().empty()) return;
         text_ += "[object.material]\n";
-        add_parameters(object.reflection.parameters, object.label);
+        add_parameters(object.reflection.parameters, object.label.text());
         end();
     }
 

@@ -136,7 +136,7 @@ scale = [1, 2, 3]
     CHECK(scene.image.color_management == candela::ColorEncoding::none);
     REQUIRE(scene.objects.size() == 2);
     const candela::Object& ball = scene.objects[0];
-    CHECK(ball.label == "'ball'");
+    CHECK(ball.label.text() == "'ball'");
     CHECK(ball.transform.scale == Vec3{2, 2, 2});
     CHECK(ball.transform.rotation == Vec3{10, 20, 30});
     CHECK(ball.shading.name == "gouraud");
@@ -148,7 +148,7 @@ scale = [1, 2, 3]
     CHECK(scene.objects[1].shading.name == "flat");
     CHECK(scene.objects[1].reflection.name == "lambert");
     CHECK(scene.objects[1].transform.scale == Vec3{1, 2, 3});
-    CHECK(scene.objects[1].label == "number 1");
+    CHECK(scene.objects[1].label.text() == "number 1");
 }
 
 TEST_CASE("an unknown key is an error at its position, with a suggestion") {

@@ -189,10 +189,10 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.constraints.overlap = candela::Severity::warning; },
         [](Scene& s) { s.constraints.overlap.reset(); },
         [](Scene& s) { s.lights.pop_back(); },
-        [](Scene& s) { s.lights[1].label = "'moon light'"; },
+        [](Scene& s) { s.lights[1].label.name = "moon light"; },
         [](Scene& s) { s.lights[1].model.parameters.set("intensity", 3.0); },
         [](Scene& s) { s.objects.pop_back(); },
-        [](Scene& s) { s.objects[1].label = "'pot'"; },
+        [](Scene& s) { s.objects[1].label.name = "pot"; },
         [](Scene& s) { s.objects[1].shape.parameters.set("segments", std::int64_t{9}); },
         [](Scene& s) { s.objects[1].transform.position.x += 1; },
         [](Scene& s) { s.objects[1].transform.rotation.x += 1; },
@@ -287,12 +287,12 @@ TEST_CASE("what the format cannot express is refused, not changed") {
     other.objects[0].color = {0.5f, 0, 0};
     CHECK(refusal(other).find("0.5 in a colour is not an integer") != std::string::npos);
     other = scene;
-    other.objects[0].label = "cube";
-    CHECK(refusal(other).find("cube is neither a name in quotes nor 'number 0'") != std::string::npos);
+    other.objects[0].label = {.name = "", .number = 7};
+    CHECK(refusal(other).find("number 7 has the index 0 and no name") != std::string::npos);
     other = scene;
-    other.lights[0].label =
-        "'l\xe9"
-        "on'";
+    other.lights[0].label.name =
+        "l\xe9"
+        "on";
     CHECK(refusal(other).find("is not UTF-8") != std::string::npos);
     other = scene;
     other.room.height = std::numeric_limits<float>::infinity();

@@ -74,8 +74,8 @@ py::array rendered(const ReadScene& scene, bool floats) {
 
 std::vector<std::pair<std::string, std::string>> labels_of(const ReadScene& scene) {
     std::vector<std::pair<std::string, std::string>> labels;
-    for (const LightSource& light : scene.scene().lights) labels.emplace_back("light", light.label);
-    for (const Object& object : scene.scene().objects) labels.emplace_back("object", object.label);
+    for (const LightSource& light : scene.scene().lights) labels.emplace_back("light", light.label.text());
+    for (const Object& object : scene.scene().objects) labels.emplace_back("object", object.label.text());
     return labels;
 }
 

@@ -26,11 +26,10 @@ struct Settable {
 
 /// The path element for the `index`th object or light: its name, unless it has none or a path cannot contain
 /// it.
-std::string in_path(const std::string& label, std::size_t index) {
-    const std::string_view name = candela::name_of_label(label).value_or("");
+std::string in_path(const std::string& name, std::size_t index) {
     const bool is_possible =
         !name.empty() && name.find_first_of(".=") == std::string_view::npos && can_be_shown(name);
-    return is_possible ? std::string(name) : std::to_string(index);
+    return is_possible ? name : std::to_string(index);
 }
 
 class Paths {
@@ -67,14 +66,14 @@ void add_scene(Paths& paths, const candela::Scene& scene) {
         } else if (table.name == "light") {
             for (std::size_t i = 0; i < scene.lights.size(); ++i) {
                 const candela::LightSource& light = scene.lights[i];
-                const std::string prefix = "light." + in_path(light.label, i) + '.';
+                const std::string prefix = "light." + in_path(light.label.name, i) + '.';
                 paths.add(table, prefix);
                 paths.add(PluginKind::light, light.model.name, prefix);
             }
         } else if (table.name == "object") {
             for (std::size_t i = 0; i < scene.objects.size(); ++i) {
                 const candela::Object& object = scene.objects[i];
-                const std::string prefix = "object." + in_path(object.label, i) + '.';
+                const std::string prefix = "object." + in_path(object.label.name, i) + '.';
                 paths.add(table, prefix);
                 paths.add(PluginKind::shape, object.shape.name, prefix);
                 paths.add(PluginKind::reflection, object.reflection.name, prefix + "material.");

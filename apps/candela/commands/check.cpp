@@ -95,7 +95,7 @@ void print_summary(const Scene& scene, const RenderScene& compiled) {
     for (std::size_t i = 0; i < std::min(scene.objects.size(), k_most_lines); ++i) {
         const candela::Object& object = scene.objects[i];
         std::cout << fmt::format("    {:<12} {}, {}, {} shading, {} reflection\n",
-                                 candela::printable(object.label), object.shape.name,
+                                 candela::printable(object.label.text()), object.shape.name,
                                  count(compiled.objects[i].mesh.triangle_count(), "triangle"),
                                  object.shading.name, object.reflection.name);
     }
@@ -116,7 +116,7 @@ void print_json(const std::optional<RenderScene>& compiled, const Scene* scene,
         for (std::size_t i = 0; i < scene->objects.size(); ++i) {
             const candela::Object& object = scene->objects[i];
             objects.push_back(
-                {{"label", object.label},
+                {{"label", object.label.text()},
                  {"type", object.shape.name},
                  {"triangles", compiled->objects[i].mesh.triangle_count()},
                  {"closed", compiled->objects[i].mesh.closed && compiled->objects[i].mesh.open_edges == 0},
@@ -125,7 +125,7 @@ void print_json(const std::optional<RenderScene>& compiled, const Scene* scene,
         }
         Json lights = Json::array();
         for (const candela::LightSource& light : scene->lights)
-            lights.push_back({{"label", light.label}, {"type", light.model.name}});
+            lights.push_back({{"label", light.label.text()}, {"type", light.model.name}});
         result["scene"] = {{"width", scene->image.width},
                            {"height", scene->image.height},
                            {"samples", scene->image.samples},

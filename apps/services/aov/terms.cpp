@@ -62,8 +62,8 @@ const KnownTerm& known(const NamedTerm& named) {
 }
 
 /// A light's name, or its number.
-std::string name_of_light(const std::string& label) {
-    return std::string(candela::name_of_label(label).value_or(label.substr(label.rfind(' ') + 1)));
+std::string name_of_light(const candela::Label& label) {
+    return label.name.empty() ? std::to_string(label.number) : label.name;
 }
 
 /// The possible words of a list: all terms, and those of each light.

@@ -58,7 +58,7 @@ Json json_of(const std::vector<KernelValue>& steps) {
 Json json_of(const Explanation& e, const PointTrace& point, const LightTrace& light,
              const std::string& reflection) {
     const candela::LightSource& source = e.scene.lights[light.light];
-    Json result = {{"light", source.label}, {"type", source.model.name}};
+    Json result = {{"light", source.label.text()}, {"type", source.model.name}};
     if (light.sample == LightTrace::k_ambient) {
         result["ambient"] = json_of(light.diffuse);
     } else {
@@ -103,7 +103,7 @@ Json json_of(const Explanation& e, const InspectedFragment& fragment) {
     Json points = Json::array();
     for (const PointTrace& point : fragment.points)
         points.push_back(json_of(e, point, object.reflection.name));
-    return {{"object", object.label},
+    return {{"object", object.label.text()},
             {"index", fragment.object},
             {"type", object.shape.name},
             {"triangle", fragment.triangle},

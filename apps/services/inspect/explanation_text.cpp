@@ -78,8 +78,8 @@ class Writer {
     void write(const InspectedFragment& fragment) {
         const candela::Object& object = e_.scene.objects[fragment.object];
         line(0,
-             fmt::format("object {}, {}: triangle {}, barycentric {}{}", object.label, object.shape.name,
-                         fragment.triangle, text_of(fragment.barycentric),
+             fmt::format("object {}, {}: triangle {}, barycentric {}{}", object.label.text(),
+                         object.shape.name, fragment.triangle, text_of(fragment.barycentric),
                          fragment.weight < 1 ? fmt::format(", {:.4g} of the pixel", fragment.weight) : ""));
         value(1, "p", fragment.position, "metres");
         line(1,
@@ -109,7 +109,7 @@ class Writer {
     void write(const LightTrace& light, const PointTrace& point, const candela::Object& object) {
         const candela::LightSource& source = e_.scene.lights[light.light];
         const bool is_ambient = light.sample == LightTrace::k_ambient;
-        line(2, fmt::format("light {}, {}{}", source.label, source.model.name,
+        line(2, fmt::format("light {}, {}{}", source.label.text(), source.model.name,
                             light.sample > 0 ? fmt::format(", sample {}", light.sample) : ""));
         if (is_ambient) {
             value(3, "arriving", light.diffuse);
