@@ -14,8 +14,8 @@ namespace {
 constexpr std::size_t k_per_task = 16384;
 
 std::uint32_t next_in_triangle(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
-Array<std::uint32_t> places_of(const Surface& surface) {
-    Array<std::uint32_t> places(surface.position.size());
+mesh_io::Array<std::uint32_t> places_of(const mesh_io::Surface& surface) {
+    mesh_io::Array<std::uint32_t> places(surface.position.size());
     if (surface.are_places_unique) {
         std::iota(places.begin(), places.end(), 0u);
     } else {
@@ -28,7 +28,7 @@ std::uint32_t previous_in_triangle(std::uint32_t corner) { return corner % 3 == 
 
 }  // namespace
 
-Corners::Corners(const Surface& surface)
+Corners::Corners(const mesh_io::Surface& surface)
     : place_(places_of(surface)), begin_(place_.size() + 1), corners_(surface.indices.size()) {
     const auto each_corner = [&](auto visit) {
         candela::parallel_for(corners_.size(), k_per_task, [&](std::size_t begin, std::size_t end) {
@@ -55,7 +55,7 @@ Corners::Corners(const Surface& surface)
     });
 }
 
-OpenEdges open_edges(const Surface& surface, const Corners& corners) {
+OpenEdges open_edges(const mesh_io::Surface& surface, const Corners& corners) {
     OpenEdges open;
     std::mutex mutex;
     candela::parallel_for(corners.places(), k_per_task, [&](std::size_t begin, std::size_t end) {

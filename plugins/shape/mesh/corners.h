@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "surface.h"
+#include "mesh_io/surface.h"
 
 namespace mesh {
 
@@ -13,7 +13,7 @@ namespace mesh {
 /// number is that of the first vertex there.
 class Corners {
   public:
-    explicit Corners(const Surface& surface);
+    explicit Corners(const mesh_io::Surface& surface);
 
     /// Per vertex.
     std::uint32_t place(std::uint32_t vertex) const { return place_[vertex]; }
@@ -25,9 +25,9 @@ class Corners {
     }
 
   private:
-    Array<std::uint32_t> place_;
-    Array<std::uint32_t> begin_;
-    Array<std::uint32_t> corners_;
+    mesh_io::Array<std::uint32_t> place_;
+    mesh_io::Array<std::uint32_t> begin_;
+    mesh_io::Array<std::uint32_t> corners_;
 };
 
 /// Edges that are not shared by two triangles that agree on which side is outside.
@@ -35,6 +35,6 @@ struct OpenEdges {
     std::uint64_t count = 0;            // as the renderer counts them
     std::vector<std::uint32_t> places;  // one end of each, in any order
 };
-OpenEdges open_edges(const Surface& surface, const Corners& corners);
+OpenEdges open_edges(const mesh_io::Surface& surface, const Corners& corners);
 
 }  // namespace mesh

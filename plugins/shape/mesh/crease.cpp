@@ -17,8 +17,8 @@ constexpr std::size_t k_per_task = 16384;
 
 /// Unit normals per triangle: the file's, which are exact even for slivers, or else computed from the
 /// corners; zero where neither exists.
-Array<Vec3> normals_of(const Surface& surface) {
-    Array<Vec3> normals(surface.triangles());
+mesh_io::Array<Vec3> normals_of(const mesh_io::Surface& surface) {
+    mesh_io::Array<Vec3> normals(surface.triangles());
     candela::parallel_for(normals.size(), k_per_task, [&](std::size_t begin, std::size_t end) {
         const candela::ConstVec3Span position = surface.position.span();
         for (std::size_t t = begin; t < end; ++t) {
@@ -44,7 +44,8 @@ Array<Vec3> normals_of(const Surface& surface) {
 /// Sorts the corners of one place into smooth groups.
 class Grouping {
   public:
-    Grouping(const Surface& surface, const Corners& corners, const Array<Vec3>& normals, double crease_angle)
+    Grouping(const mesh_io::Surface& surface, const Corners& corners, const mesh_io::Array<Vec3>& normals,
+             double crease_angle)
         : surface_(surface),
           corners_(corners),
           normals_(normals),
@@ -84,7 +85,7 @@ class Grouping {
     std::uint32_t vertex(std::size_t i) const { return surface_.indices[here_[i]]; }
     Vec3 normal(std::size_t i) const { return normals_[here_[i] / 3]; }
     std::uint32_t smoothing(std::size_t i) const {
-        return surface_.smoothing.empty() ? k_by_angle : surface_.smoothing[here_[i] / 3];
+        return surface_.smoothing.empty() ? mesh_io::k_by_angle : surface_.smoothing[here_[i] / 3];
     }
     bool has_own_normal(std::size_t i) const {
         return !surface_.normal.empty() && surface_.normal.span()[vertex(i)] != Vec3{};
@@ -101,7 +102,7 @@ class Grouping {
     bool belong_together(std::size_t i, std::size_t j) const {
         if (has_own_normal(i) || has_own_normal(j)) return vertex(i) == vertex(j);
         const std::uint32_t a = smoothing(i), b = smoothing(j);
-        if (a != k_by_angle || b != k_by_angle) return a == b && a != k_flat;
+        if (a != mesh_io::k_by_angle || b != mesh_io::k_by_angle) return a == b && a != mesh_io::k_flat;
         return are_smooth(normal(i), normal(j));
     }
 
@@ -133,7 +134,7 @@ class Grouping {
         for (std::uint32_t i = 0; i < here_.size(); ++i) {
             if (has_own_normal(i)) {
                 keyed.emplace_back(std::uint64_t{vertex(i)} << 32, i);
-            } else if (smoothing(i) != k_by_angle) {
+            } else if (smoothing(i) != mesh_io::k_by_angle) {
                 keyed.emplace_back(smoothing(i), i);
             }
         }
@@ -160,9 +161,9 @@ class Grouping {
             if (normal(i) == Vec3{} && !has_own_normal(i) && root(i) == i) join(i, sound);
     }
 
-    const Surface& surface_;
+    const mesh_io::Surface& surface_;
     const Corners& corners_;
-    const Array<Vec3>& normals_;
+    const mesh_io::Array<Vec3>& normals_;
     float least_cosine_;
     bool joins_only_planes_;
     std::span<const std::uint32_t> here_;
@@ -176,8 +177,9 @@ class Numbering {
     explicit Numbering(bool merges) : merges_(merges) {}
 
     /// Writes for each corner the number of its vertex and of the first vertex of its group.
-    std::uint32_t run(const Surface& surface, std::span<const std::uint32_t> here, Grouping& grouping,
-                      Array<std::uint32_t>& number, Array<std::uint32_t>& first) {
+    std::uint32_t run(const mesh_io::Surface& surface, std::span<const std::uint32_t> here,
+                      Grouping& grouping, mesh_io::Array<std::uint32_t>& number,
+                      mesh_io::Array<std::uint32_t>& first) {
         keys_.clear();
         for (std::uint32_t i = 0; i < here.size(); ++i)
             keys_.push_back({grouping.root(i), merges_ ? 0 : surface.indices[here[i]], i});
@@ -209,15 +211,15 @@ class Numbering {
 
 }  // namespace
 
-SplitVertices split_at_creases(const Surface& surface, const Corners& corners, double crease_angle) {
-    const Array<Vec3> normals = normals_of(surface);
+SplitVertices split_at_creases(const mesh_io::Surface& surface, const Corners& corners, double crease_angle) {
+    const mesh_io::Array<Vec3> normals = normals_of(surface);
     const bool merges = surface.u.empty() && surface.color.empty() && surface.normal.empty();
     const std::size_t places = corners.places();
     SplitVertices split;
     // Numbered within each place for now.
     split.indices.resize(surface.indices.size());
-    Array<std::uint32_t> first_of_group(merges ? 0 : surface.indices.size());
-    Array<std::uint32_t> begin(places + 1);
+    mesh_io::Array<std::uint32_t> first_of_group(merges ? 0 : surface.indices.size());
+    mesh_io::Array<std::uint32_t> begin(places + 1);
     begin[0] = 0;
     candela::parallel_for(places, k_per_task, [&](std::size_t from, std::size_t to) {
         Grouping grouping(surface, corners, normals, crease_angle);

@@ -151,14 +151,14 @@ class Squares {
 
 class Cutter {
   public:
-    explicit Cutter(const Surface& from) : from_(from) {
+    explicit Cutter(const mesh_io::Surface& from) : from_(from) {
         result_.is_color_linear = from.is_color_linear;
         result_.losses = from.losses;
         result_.notes = from.notes;
     }
 
     /// Returns nothing if there would be more than `most` triangles.
-    std::optional<Surface> cut(const Opacity& opacity, float level, bool clamps, std::size_t most) {
+    std::optional<mesh_io::Surface> cut(const Opacity& opacity, float level, bool clamps, std::size_t most) {
         const Squares squares(opacity, level, clamps);
         for (std::size_t t = 0; t < from_.triangles(); ++t) {
             Piece triangle(3);
@@ -178,13 +178,13 @@ class Cutter {
     void add(const Piece& piece, std::size_t triangle) {
         const auto first = static_cast<std::uint32_t>(result_.position.size());
         for (const Corner& corner : piece) {
-            const auto mean = [&](const Array<float>& values) {
+            const auto mean = [&](const mesh_io::Array<float>& values) {
                 double sum = 0;
                 for (std::size_t k = 0; k < 3; ++k)
                     sum += corner.weight[k] * static_cast<double>(values[from_.indices[3 * triangle + k]]);
                 return static_cast<float>(sum);
             };
-            const auto add_mean = [&](const Vectors& values, Vectors& to) {
+            const auto add_mean = [&](const mesh_io::Vectors& values, mesh_io::Vectors& to) {
                 if (!values.empty()) to.push_back({mean(values.x), mean(values.y), mean(values.z)});
             };
             add_mean(from_.position, result_.position);
@@ -201,8 +201,8 @@ class Cutter {
         }
     }
 
-    const Surface& from_;
-    Surface result_;
+    const mesh_io::Surface& from_;
+    mesh_io::Surface result_;
 };
 
 }  // namespace
@@ -223,7 +223,8 @@ Opacity Opacity::read(std::string_view pgm) {
     const auto pixels = static_cast<std::size_t>(header[0]) * static_cast<std::size_t>(header[1]);
     is_pgm = is_pgm && header[0] <= k_most && header[1] <= k_most && header[2] == 255 && at < end &&
              static_cast<std::size_t>(end - at - 1) >= pixels;
-    if (!is_pgm) throw BadFile(fmt::format("is not an 8-bit binary PGM of at most {0} x {0} pixels", k_most));
+    if (!is_pgm)
+        throw mesh_io::BadFile(fmt::format("is not an 8-bit binary PGM of at most {0} x {0} pixels", k_most));
     ++at;
     Opacity result;
     result.width_ = header[0];
@@ -253,18 +254,18 @@ Opacity Opacity::halved() const {
     return result;
 }
 
-Surface cut_out(const Surface& surface, const Opacity& opacity, float level, bool clamps) {
+mesh_io::Surface cut_out(const mesh_io::Surface& surface, const Opacity& opacity, float level, bool clamps) {
     if (surface.u.empty()) return surface;
     const std::size_t most = std::max<std::size_t>(std::size_t{1} << 21, 2 * surface.triangles());
     Opacity finest = opacity;
     for (bool is_coarser = false;; is_coarser = true) {
-        std::optional<Surface> result = Cutter(surface).cut(finest, level, clamps, most);
+        std::optional<mesh_io::Surface> result = Cutter(surface).cut(finest, level, clamps, most);
         if (!result && finest.width() * finest.height() > 1) {
             finest = finest.halved();
             continue;
         }
         if (!result) return surface;
-        if (result->triangles() == 0) throw BadFile("is transparent everywhere");
+        if (result->triangles() == 0) throw mesh_io::BadFile("is transparent everywhere");
         if (is_coarser)
             result->notes.emplace_back(fmt::format(
                 "would have too many triangles along its cut-outs, so these were coarsened to {} x {} pixels",

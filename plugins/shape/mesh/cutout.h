@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "surface.h"
+#include "mesh_io/surface.h"
 
 namespace mesh {
 
@@ -30,6 +30,6 @@ class Opacity {
 /// The part of a surface where the opacity, interpolated between the centres of its pixels, is at least
 /// `level`. A surface without texture coordinates stays whole. If that needs too many triangles, the outline
 /// is made coarser and a note is added. Throws BadFile if nothing is left.
-Surface cut_out(const Surface& surface, const Opacity& opacity, float level, bool clamps);
+mesh_io::Surface cut_out(const mesh_io::Surface& surface, const Opacity& opacity, float level, bool clamps);
 
 }  // namespace mesh

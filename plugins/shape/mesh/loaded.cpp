@@ -11,7 +11,7 @@
 
 namespace mesh {
 
-Loaded::Loaded(Surface whole, bool keeps_sides) : surface_(std::move(whole)) {
+Loaded::Loaded(mesh_io::Surface whole, bool keeps_sides) : surface_(std::move(whole)) {
     if (keeps_sides) return;
     joined();
     if (turn_outwards(surface_, joined_->corners, joined_->open)) joined_->corners = Corners(surface_);
@@ -44,10 +44,10 @@ std::shared_ptr<const SplitVertices> Loaded::split(double crease_angle) const {
     return made;
 }
 
-std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const Origin& origin, FileScope reach,
-                                           bool keeps_sides) {
+std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const mesh_io::Origin& origin,
+                                           mesh_io::FileScope reach, bool keeps_sides) {
     static std::mutex mutex;
-    static std::map<std::tuple<std::string, std::array<double, 3>, FileScope, bool>,
+    static std::map<std::tuple<std::string, std::array<double, 3>, mesh_io::FileScope, bool>,
                     std::weak_ptr<SharedFile>>
         files;
     std::error_code problem;
@@ -65,10 +65,11 @@ std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const Origin
 }
 
 std::shared_ptr<const Loaded> SharedFile::loaded(const std::function<std::shared_ptr<const Loaded>()>& read) {
-    const auto states_now = [&](const Surface* surface) {
-        std::vector<FileState> states{state_of(file_)};
+    const auto states_now = [&](const mesh_io::Surface* surface) {
+        std::vector<mesh_io::FileState> states{mesh_io::state_of(file_)};
         if (surface != nullptr)
-            for (const std::filesystem::path& part : surface->files) states.push_back(state_of(part));
+            for (const std::filesystem::path& part : surface->files)
+                states.push_back(mesh_io::state_of(part));
         return states;
     };
     {
@@ -76,9 +77,9 @@ std::shared_ptr<const Loaded> SharedFile::loaded(const std::function<std::shared
         if (loaded_ != nullptr && states_ == states_now(&loaded_->surface())) return loaded_;
     }
     // Unlocked: a thread that waits for others within read() may be given work that enters this function.
-    const FileState before = state_of(file_);
+    const mesh_io::FileState before = mesh_io::state_of(file_);
     std::shared_ptr<const Loaded> result = read();
-    std::vector<FileState> states = states_now(&result->surface());
+    std::vector<mesh_io::FileState> states = states_now(&result->surface());
     states[0] = before;
     const std::scoped_lock lock(mutex_);
     loaded_ = result;

@@ -10,10 +10,10 @@
 
 #include "corners.h"
 #include "crease.h"
-#include "file_bytes.h"
+#include "mesh_io/file_bytes.h"
+#include "mesh_io/surface.h"
 #include "origin.h"
 #include "part.h"
-#include "surface.h"
 
 namespace mesh {
 
@@ -21,9 +21,9 @@ namespace mesh {
 class Loaded {
   public:
     /// Makes them face outwards, unless `keeps_sides`.
-    Loaded(Surface whole, bool keeps_sides);
+    Loaded(mesh_io::Surface whole, bool keeps_sides);
 
-    const Surface& surface() const { return surface_; }
+    const mesh_io::Surface& surface() const { return surface_; }
     const Corners& corners() const { return joined().corners; }
     const OpenEdges& open() const { return joined().open; }
     const TrianglesByMaterial& by_material() const;
@@ -37,7 +37,7 @@ class Loaded {
     };
     const Joined& joined() const;
 
-    Surface surface_;
+    mesh_io::Surface surface_;
     // Computed on demand: parts of a file whose sides are kept need neither.
     mutable std::once_flag is_joined_, is_sorted_;
     mutable std::optional<Joined> joined_;
@@ -50,8 +50,8 @@ class Loaded {
 /// Owned by all shapes of a file.
 class SharedFile {
   public:
-    static std::shared_ptr<SharedFile> of(const std::string& file, const Origin& origin, FileScope reach,
-                                          bool keeps_sides);
+    static std::shared_ptr<SharedFile> of(const std::string& file, const mesh_io::Origin& origin,
+                                          mesh_io::FileScope reach, bool keeps_sides);
 
     /// The last result of `read`, unless the file or one that it names has changed since. `read` may run on
     /// several threads at once.
@@ -63,7 +63,7 @@ class SharedFile {
     std::string file_;
     std::mutex mutex_;
     std::shared_ptr<const Loaded> loaded_;
-    std::vector<FileState> states_;  // of the file and those that it names, before they were read
+    std::vector<mesh_io::FileState> states_;  // of the file and those that it names, before they were read
 };
 
 }  // namespace mesh

@@ -19,12 +19,12 @@
 #include "crease.h"
 #include "cutout.h"
 #include "derivatives.h"
-#include "file_bytes.h"
 #include "loaded.h"
+#include "mesh_io/file_bytes.h"
+#include "mesh_io/readers.h"
+#include "mesh_io/surface.h"
 #include "origin.h"
 #include "part.h"
-#include "readers.h"
-#include "surface.h"
 
 using namespace candela::sdk;
 
@@ -56,55 +56,56 @@ Format format_of(const std::filesystem::path& file) {
     if (extension == ".ply") return Format::ply;
     if (extension == ".stl") return Format::stl;
     if (extension == ".gltf" || extension == ".glb") return Format::gltf;
-    throw mesh::BadFile("has an unsupported mesh extension; expected .obj, .ply, .stl, .gltf or .glb");
+    throw mesh_io::BadFile("has an unsupported mesh extension; expected .obj, .ply, .stl, .gltf or .glb");
 }
 
-mesh::Surface surface_of(const std::filesystem::path& file, const mesh::Origin& origin, mesh::FileScope reach,
-                         const mesh::Progress& progress) {
+mesh_io::Surface surface_of(const std::filesystem::path& file, const mesh_io::Origin& origin,
+                            mesh_io::FileScope reach, const mesh_io::Progress& progress) {
     const Format format = format_of(file);
-    mesh::Array<char> bytes;
-    if (format != Format::stl) bytes = mesh::read_file(file);
-    mesh::Surface surface;
+    mesh_io::Array<char> bytes;
+    if (format != Format::stl) bytes = mesh_io::read_file(file);
+    mesh_io::Surface surface;
     switch (format) {
         case Format::obj:
-            surface = mesh::read_obj(mesh::text_of(bytes), origin, progress);
+            surface = mesh_io::read_obj(mesh_io::text_of(bytes), origin, progress);
             break;
         case Format::ply:
-            surface = mesh::read_ply(mesh::text_of(bytes), origin, progress);
+            surface = mesh_io::read_ply(mesh_io::text_of(bytes), origin, progress);
             break;
         case Format::stl: {
-            mesh::Pieces pieces(file);
-            surface = mesh::read_stl(pieces, origin, progress);
+            mesh_io::Pieces pieces(file);
+            surface = mesh_io::read_stl(pieces, origin, progress);
             break;
         }
         case Format::gltf:
-            surface = mesh::read_gltf(mesh::text_of(bytes), origin, file.parent_path(), reach);
+            surface = mesh_io::read_gltf(mesh_io::text_of(bytes), origin, file.parent_path(), reach);
             break;
     }
-    if (surface.triangles() == 0) throw mesh::BadFile("has no faces, and so no triangles");
-    if (surface.indices.size() > 0xffff'fff0u) throw mesh::BadFile("has too many triangles");
+    if (surface.triangles() == 0) throw mesh_io::BadFile("has no faces, and so no triangles");
+    if (surface.indices.size() > 0xffff'fff0u) throw mesh_io::BadFile("has too many triangles");
     if (const std::string note = mesh::too_far_note(surface, origin); !note.empty())
         surface.notes.push_back(note);
     return surface;
 }
 
-mesh::Origin origin_of(const MeshShape& shape) {
+mesh_io::Origin origin_of(const MeshShape& shape) {
     const std::string_view text = shape.origin != nullptr ? shape.origin : "";
     const auto origin = mesh::origin_from(text);
     if (!origin)
-        throw std::invalid_argument(fmt::format(
-            "'origin' is {}; expected three numbers, such as \"500000 4500000 120\"", mesh::in_quotes(text)));
+        throw std::invalid_argument(
+            fmt::format("'origin' is {}; expected three numbers, such as \"500000 4500000 120\"",
+                        mesh_io::in_quotes(text)));
     return *origin;
 }
 
-bool has_all_normals(const mesh::Surface& surface) {
+bool has_all_normals(const mesh_io::Surface& surface) {
     for (std::size_t i = 0; i < surface.normal.size(); ++i)
         if (surface.normal.span()[i] == candela::Vec3{}) return false;
     return !surface.normal.empty();
 }
 
 /// Copies `from[source[i]]` to `to[i]`, or all of `from` if `source` is empty.
-void copy(const mesh::Array<float>& from, const mesh::Array<std::uint32_t>& source, std::size_t count,
+void copy(const mesh_io::Array<float>& from, const mesh_io::Array<std::uint32_t>& source, std::size_t count,
           float* to) {
     constexpr std::size_t k_per_task = 65536;
     candela::parallel_for(count, k_per_task, [&](std::size_t begin, std::size_t end) {
@@ -116,7 +117,7 @@ void copy(const mesh::Array<float>& from, const mesh::Array<std::uint32_t>& sour
     });
 }
 
-void copy(const mesh::Vectors& from, const mesh::Array<std::uint32_t>& source, std::size_t count,
+void copy(const mesh_io::Vectors& from, const mesh_io::Array<std::uint32_t>& source, std::size_t count,
           candela::Vec3Span to) {
     copy(from.x, source, count, to.x);
     copy(from.y, source, count, to.y);
@@ -129,7 +130,7 @@ class FileMesh final : public candela::Shape {
     explicit FileMesh(const MeshShape& shape)
         : file_(shape.file != nullptr ? shape.file : ""),
           crease_angle_(shape.crease_angle),
-          reach_(shape.allow_outside != 0 ? mesh::FileScope::anywhere : mesh::FileScope::its_folder),
+          reach_(shape.allow_outside != 0 ? mesh_io::FileScope::anywhere : mesh_io::FileScope::its_folder),
           uses_colors_(shape.vertex_colors != 0),
           part_(shape.part != nullptr ? shape.part : ""),
           appearance_imported_(shape.appearance_imported != 0),
@@ -144,7 +145,7 @@ class FileMesh final : public candela::Shape {
         try {
             const auto read = [&] {
                 const auto reading = [&](double part) { sink.progress(k_read * part); };
-                mesh::Surface surface = surface_of(file_, origin_, reach_, reading);
+                mesh_io::Surface surface = surface_of(file_, origin_, reach_, reading);
                 sink.progress(k_read);
                 return std::make_shared<const mesh::Loaded>(std::move(surface), keeps_sides());
             };
@@ -157,7 +158,7 @@ class FileMesh final : public candela::Shape {
                 return write(whole->surface(), split != nullptr ? *split : none, whole->open(), request,
                              sink);
             }
-            mesh::Surface part;
+            mesh_io::Surface part;
             if (!part_.empty()) part = mesh::part_of(whole->surface(), whole->by_material(), part_);
             if (!cutout_.empty()) part = cut_out(part_.empty() ? whole->surface() : part);
             whole.reset();
@@ -165,27 +166,27 @@ class FileMesh final : public candela::Shape {
             mesh::SplitVertices split;
             if (needs_split(part, request)) split = mesh::split_at_creases(part, corners, crease_angle_);
             write(part, split, mesh::open_edges(part, corners), request, sink);
-        } catch (const mesh::BadFile& problem) {
+        } catch (const mesh_io::BadFile& problem) {
             throw std::runtime_error(fmt::format("'{}' {}", file_, problem.what()));
         }
     }
 
   private:
-    bool is_faceted(const mesh::Surface& surface, const candela::MeshRequest& request) const {
+    bool is_faceted(const mesh_io::Surface& surface, const candela::MeshRequest& request) const {
         return request.facets && crease_angle_ == 0 && surface.normal.empty() && surface.smoothing.empty();
     }
-    bool needs_split(const mesh::Surface& surface, const candela::MeshRequest& request) const {
+    bool needs_split(const mesh_io::Surface& surface, const candela::MeshRequest& request) const {
         return request.normals && !is_faceted(surface, request) && !has_all_normals(surface);
     }
 
     bool keeps_sides() const { return sides_ != Sides::outside; }
 
-    mesh::Surface cut_out(const mesh::Surface& surface) const {
+    mesh_io::Surface cut_out(const mesh_io::Surface& surface) const {
         try {
-            const mesh::Array<char> bytes = mesh::read_file(cutout_);
-            const mesh::Opacity opacity = mesh::Opacity::read(mesh::text_of(bytes));
+            const mesh_io::Array<char> bytes = mesh_io::read_file(cutout_);
+            const mesh::Opacity opacity = mesh::Opacity::read(mesh_io::text_of(bytes));
             return mesh::cut_out(surface, opacity, cutout_level_, cutout_clamps_);
-        } catch (const mesh::BadFile& problem) {
+        } catch (const mesh_io::BadFile& problem) {
             throw std::runtime_error(fmt::format("the cut-out '{}' {}", cutout_, problem.what()));
         }
     }
@@ -193,10 +194,11 @@ class FileMesh final : public candela::Shape {
     // Progress after each step, measured with ten million triangles.
     static constexpr double k_read = 0.5, k_oriented = 0.8, k_split = 0.9;
 
-    void write(const mesh::Surface& surface, const mesh::SplitVertices& split, const mesh::OpenEdges& open,
+    void write(const mesh_io::Surface& surface, const mesh::SplitVertices& split, const mesh::OpenEdges& open,
                const candela::MeshRequest& request, candela::MeshSink& sink) const {
         sink.progress(k_split);
-        const mesh::Array<std::uint32_t>& indices = split.indices.empty() ? surface.indices : split.indices;
+        const mesh_io::Array<std::uint32_t>& indices =
+            split.indices.empty() ? surface.indices : split.indices;
 
         const candela::MeshLayout layout{
             .vertices = split.indices.empty() ? surface.position.size() : split.source.size(),
@@ -226,15 +228,15 @@ class FileMesh final : public candela::Shape {
         if (layout.has_smooth_groups) std::ranges::copy(split.group, to.smooth_group.begin());
         if (layout.has_derivatives && layout.has_uv) derivatives_from_uv(to, layout.vertices);
         std::vector<std::string> losses;
-        for (const mesh::Unsupported& loss : surface.losses)
+        for (const mesh_io::Unsupported& loss : surface.losses)
             if (!loss.appearance || !appearance_imported_) losses.push_back(loss.text);
         if (!losses.empty())
-            sink.warn(fmt::format("'{}' also has {}, which {} left out", file_, mesh::listed(losses),
+            sink.warn(fmt::format("'{}' also has {}, which {} left out", file_, mesh_io::listed(losses),
                                   losses.size() == 1 && !losses[0].ends_with('s') ? "is" : "are"));
         for (const std::string& note : surface.notes) sink.warn(fmt::format("'{}' {}", file_, note));
     }
 
-    void write_colors(const mesh::Surface& surface, const mesh::Array<std::uint32_t>& source,
+    void write_colors(const mesh_io::Surface& surface, const mesh_io::Array<std::uint32_t>& source,
                       candela::ColorEncoding scene, std::size_t count, candela::Vec3Span to,
                       candela::MeshSink& sink) const {
         copy(surface.color, source, count, to);
@@ -253,11 +255,11 @@ class FileMesh final : public candela::Shape {
 
     std::string file_;
     double crease_angle_;
-    mesh::FileScope reach_;
+    mesh_io::FileScope reach_;
     bool uses_colors_;
     std::string part_;
     bool appearance_imported_;
-    mesh::Origin origin_;
+    mesh_io::Origin origin_;
     Sides sides_;
     std::string cutout_;
     float cutout_level_;

@@ -31,7 +31,7 @@ struct Volume {
 };
 
 /// Six times the volume of the tetrahedron between a triangle and `origin`.
-double six_volumes(const Surface& surface, std::size_t triangle, Vec3 origin) {
+double six_volumes(const mesh_io::Surface& surface, std::size_t triangle, Vec3 origin) {
     const ConstVec3Span position = surface.position.span();
     double p[3][3];
     for (std::size_t k = 0; k < 3; ++k) {
@@ -46,7 +46,7 @@ double six_volumes(const Surface& surface, std::size_t triangle, Vec3 origin) {
 }
 
 /// How far a triangle's normals lie on its front, weighted by its area.
-double agreement(const Surface& surface, std::size_t triangle) {
+double agreement(const mesh_io::Surface& surface, std::size_t triangle) {
     const ConstVec3Span position = surface.position.span();
     const std::uint32_t* const v = &surface.indices[3 * triangle];
     const Vec3 front = cross(position[v[1]] - position[v[0]], position[v[2]] - position[v[0]]);
@@ -61,7 +61,7 @@ double agreement(const Surface& surface, std::size_t triangle) {
 /// A surface of several parts.
 class Orientation {
   public:
-    Orientation(Surface& surface, const Corners& corners, const OpenEdges& open)
+    Orientation(mesh_io::Surface& surface, const Corners& corners, const OpenEdges& open)
         : surface_(surface), corners_(corners), parts_(surface, corners), closed_(parts_.count(), true) {
         for (const std::uint32_t place : open.places) closed_[parts_.of_place(place)] = false;
     }
@@ -162,7 +162,7 @@ class Orientation {
         }
     }
 
-    Surface& surface_;
+    mesh_io::Surface& surface_;
     const Corners& corners_;
     ConnectedComponents parts_;
     std::vector<bool> closed_;  // per part
@@ -170,7 +170,7 @@ class Orientation {
 
 }  // namespace
 
-bool turn_outwards(Surface& surface, const Corners& corners, const OpenEdges& open) {
+bool turn_outwards(mesh_io::Surface& surface, const Corners& corners, const OpenEdges& open) {
     return !surface.indices.empty() && Orientation(surface, corners, open).turn();
 }
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "corners.h"
-#include "surface.h"
+#include "mesh_io/surface.h"
 
 namespace mesh {
 
@@ -10,6 +10,6 @@ namespace mesh {
 /// and its normals if they point inwards. A part is a set of connected triangles; one inside another is a
 /// cavity, whichever way it is wound. Adds their number to `surface.notes`; returns whether there were any,
 /// since their corners have then moved.
-bool turn_outwards(Surface& surface, const Corners& corners, const OpenEdges& open);
+bool turn_outwards(mesh_io::Surface& surface, const Corners& corners, const OpenEdges& open);
 
 }  // namespace mesh

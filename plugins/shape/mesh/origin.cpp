@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "text_scanner.h"
+#include "mesh_io/text_scanner.h"
 
 namespace mesh {
 
@@ -20,15 +20,15 @@ double short_number(double x, double size) {
 
 }  // namespace
 
-std::optional<Origin> origin_from(std::string_view text) {
-    Origin origin;
+std::optional<mesh_io::Origin> origin_from(std::string_view text) {
+    mesh_io::Origin origin;
     std::string words(text);
     std::ranges::replace(words, ',', ' ');
-    TextScanner scanner(words);
+    mesh_io::TextScanner scanner(words);
     std::string_view word = scanner.word();
     if (word.empty()) return origin;
     for (double& x : origin.at) {
-        const auto number = number_from(word);
+        const auto number = mesh_io::number_from(word);
         if (!number || !std::isfinite(*number)) return std::nullopt;
         x = *number;
         word = scanner.word();
@@ -36,13 +36,13 @@ std::optional<Origin> origin_from(std::string_view text) {
     return word.empty() ? std::optional(origin) : std::nullopt;
 }
 
-std::string too_far_note(const Surface& surface, const Origin& origin) {
+std::string too_far_note(const mesh_io::Surface& surface, const mesh_io::Origin& origin) {
     std::array<double, 3> center{};
     double size = 0, farthest = 0, farthest_in_file = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Array<float>& values = axis == 0   ? surface.position.x
-                                     : axis == 1 ? surface.position.y
-                                                 : surface.position.z;
+        const mesh_io::Array<float>& values = axis == 0   ? surface.position.x
+                                              : axis == 1 ? surface.position.y
+                                                          : surface.position.z;
         if (values.empty()) return {};
         const auto [low, high] = std::ranges::minmax(values);
         center[axis] = 0.5 * (double{low} + double{high});

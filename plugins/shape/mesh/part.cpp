@@ -7,7 +7,7 @@
 #include <numeric>
 #include <string>
 
-#include "text_scanner.h"
+#include "mesh_io/text_scanner.h"
 
 namespace mesh {
 
@@ -16,7 +16,7 @@ namespace {
 constexpr std::uint32_t k_unused = 0xffff'ffffu;
 
 /// The materials that a name refers to.
-std::vector<bool> chosen_of(const Surface& surface, std::string_view part) {
+std::vector<bool> chosen_of(const mesh_io::Surface& surface, std::string_view part) {
     std::vector<bool> chosen(surface.materials.size());
     for (std::size_t i = 0; i < chosen.size(); ++i) chosen[i] = surface.materials[i] == part;
     // The scene may say "red" where the file says "usemtl red # a comment".
@@ -31,15 +31,15 @@ std::vector<bool> chosen_of(const Surface& surface, std::string_view part) {
     return chosen;
 }
 
-[[noreturn]] void refuse(const Surface& surface, std::string_view part) {
+[[noreturn]] void refuse(const mesh_io::Surface& surface, std::string_view part) {
     if (surface.materials.empty())
-        throw BadFile(fmt::format("has no materials, and so no part {}", in_quotes(part)));
+        throw mesh_io::BadFile(fmt::format("has no materials, and so no part {}", mesh_io::in_quotes(part)));
     std::vector<std::string> names;
     constexpr std::size_t k_most_named = 8;
     for (const std::string& name : surface.materials)
-        if (names.size() < k_most_named && !name.empty()) names.push_back(in_quotes(name));
-    throw BadFile(fmt::format("has no triangles with a material {}{}", in_quotes(part),
-                              names.empty() ? "" : "; its materials: " + listed(names)));
+        if (names.size() < k_most_named && !name.empty()) names.push_back(mesh_io::in_quotes(name));
+    throw mesh_io::BadFile(fmt::format("has no triangles with a material {}{}", mesh_io::in_quotes(part),
+                                       names.empty() ? "" : "; its materials: " + mesh_io::listed(names)));
 }
 
 template <class Values>
@@ -51,12 +51,12 @@ Values picked(const Values& values, std::span<const std::uint32_t> which) {
     return result;
 }
 
-Vectors picked(const Vectors& values, std::span<const std::uint32_t> which) {
+mesh_io::Vectors picked(const mesh_io::Vectors& values, std::span<const std::uint32_t> which) {
     return {picked(values.x, which), picked(values.y, which), picked(values.z, which)};
 }
 
 /// The distinct values of `indices` in ascending order; `indices` become positions among them.
-std::vector<std::uint32_t> renumbered(Array<std::uint32_t>& indices) {
+std::vector<std::uint32_t> renumbered(mesh_io::Array<std::uint32_t>& indices) {
     const auto [low, high] = std::ranges::minmax(indices);
     const std::size_t range = std::size_t{high} - low + 1;
     std::vector<std::uint32_t> values;
@@ -82,7 +82,7 @@ std::vector<std::uint32_t> renumbered(Array<std::uint32_t>& indices) {
 
 }  // namespace
 
-TrianglesByMaterial::TrianglesByMaterial(const Surface& surface)
+TrianglesByMaterial::TrianglesByMaterial(const mesh_io::Surface& surface)
     : begin_(surface.materials.size() + 1), triangles_(surface.material.size()) {
     for (const std::uint32_t material : surface.material) ++begin_[material + 1];
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -90,7 +90,8 @@ TrianglesByMaterial::TrianglesByMaterial(const Surface& surface)
     for (std::uint32_t t = 0; t < surface.material.size(); ++t) triangles_[next[surface.material[t]]++] = t;
 }
 
-Surface part_of(const Surface& surface, const TrianglesByMaterial& triangles, std::string_view part) {
+mesh_io::Surface part_of(const mesh_io::Surface& surface, const TrianglesByMaterial& triangles,
+                         std::string_view part) {
     const std::vector<bool> chosen = chosen_of(surface, part);
     std::vector<std::uint32_t> kept;
     for (std::size_t material = 0; material < chosen.size(); ++material) {
@@ -101,7 +102,7 @@ Surface part_of(const Surface& surface, const TrianglesByMaterial& triangles, st
     if (kept.empty()) refuse(surface, part);
     std::ranges::sort(kept);  // several materials may share a name
 
-    Surface result;
+    mesh_io::Surface result;
     result.indices.resize(3 * kept.size());
     for (std::size_t i = 0; i < kept.size(); ++i)
         std::copy_n(&surface.indices[3 * std::size_t{kept[i]}], 3, &result.indices[3 * i]);

@@ -6,14 +6,14 @@
 #include <string_view>
 #include <vector>
 
-#include "surface.h"
+#include "mesh_io/surface.h"
 
 namespace mesh {
 
 /// A surface's triangles, sorted by material, so that each of a hundred parts costs no more than itself.
 class TrianglesByMaterial {
   public:
-    explicit TrianglesByMaterial(const Surface& surface);
+    explicit TrianglesByMaterial(const mesh_io::Surface& surface);
 
     /// In ascending order; empty for a material that no triangle has.
     std::span<const std::uint32_t> of(std::size_t material) const {
@@ -22,11 +22,12 @@ class TrianglesByMaterial {
 
   private:
     std::vector<std::uint32_t> begin_{};  // per material, and the end
-    Array<std::uint32_t> triangles_;
+    mesh_io::Array<std::uint32_t> triangles_;
 };
 
 /// The triangles whose material has that name or number ("#0"), with the vertices that they use. Throws
 /// BadFile listing the materials if there are none.
-Surface part_of(const Surface& surface, const TrianglesByMaterial& triangles, std::string_view part);
+mesh_io::Surface part_of(const mesh_io::Surface& surface, const TrianglesByMaterial& triangles,
+                         std::string_view part);
 
 }  // namespace mesh

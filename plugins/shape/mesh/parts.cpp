@@ -48,7 +48,7 @@ class DisjointSets {
     std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref(parent_[i]); }
     std::uint32_t load(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
 
-    Array<std::uint32_t> parent_;
+    mesh_io::Array<std::uint32_t> parent_;
 };
 
 struct Point2 {
@@ -66,7 +66,7 @@ double side(Point2 a, Point2 b, Point2 p) {
 /// Triangles by the cells of a grid that they reach into, seen along x.
 class Columns {
   public:
-    Columns(const Surface& surface, const std::vector<std::uint32_t>& triangles)
+    Columns(const mesh_io::Surface& surface, const std::vector<std::uint32_t>& triangles)
         : surface_(surface), triangles_(triangles) {
         for (const std::uint32_t t : triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
@@ -157,7 +157,7 @@ class Columns {
         return x > from.x;
     }
 
-    const Surface& surface_;
+    const mesh_io::Surface& surface_;
     const std::vector<std::uint32_t>& triangles_;
     Point2 low_{std::numeric_limits<double>::max(), std::numeric_limits<double>::max()};
     Point2 high_{std::numeric_limits<double>::lowest(), std::numeric_limits<double>::lowest()};
@@ -167,7 +167,7 @@ class Columns {
 
 }  // namespace
 
-ConnectedComponents::ConnectedComponents(const Surface& surface, const Corners& corners)
+ConnectedComponents::ConnectedComponents(const mesh_io::Surface& surface, const Corners& corners)
     : part_(corners.places()) {
     DisjointSets sets(corners.places());
     candela::parallel_for(surface.triangles(), k_per_task, [&](std::size_t begin, std::size_t end) {
@@ -184,7 +184,7 @@ ConnectedComponents::ConnectedComponents(const Surface& surface, const Corners& 
     }
 }
 
-std::vector<std::vector<std::uint32_t>> containers_of(const Surface& surface, const Corners& corners,
+std::vector<std::vector<std::uint32_t>> containers_of(const mesh_io::Surface& surface, const Corners& corners,
                                                       const ConnectedComponents& parts,
                                                       const std::vector<bool>& closed) {
     const auto part_of = [&](std::uint32_t t) {
