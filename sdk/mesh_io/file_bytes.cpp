@@ -11,6 +11,8 @@
 #include <cstring>
 #include <system_error>
 
+#include "mesh_io/bad_file.h"
+
 namespace mesh_io {
 
 namespace {

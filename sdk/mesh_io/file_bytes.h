@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-#include "mesh_io/surface.h"
+#include "mesh_io/array.h"
 
 namespace mesh_io {
 

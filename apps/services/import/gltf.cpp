@@ -15,7 +15,6 @@
 
 #include "import/gltf_animation.h"
 #include "import/gltf_container.h"
-#include "import/gltf_json.h"
 #include "import/gltf_materials.h"
 #include "import/placement.h"
 #include "import/readers.h"
@@ -39,7 +38,7 @@ using gltf::number;
 using gltf::numbers;
 using gltf::object_of;
 using gltf::placement_of;
-using gltf::text;
+using gltf::text_of;
 
 class Reader {
   public:
@@ -51,7 +50,7 @@ class Reader {
 
     Model read() {
         const Json& animations = array_of(json_, "animations");
-        for (const Json& animation : animations) model_.moving.names.push_back(text(animation, "name"));
+        for (const Json& animation : animations) model_.moving.names.push_back(text_of(animation, "name"));
         if (with_animation_ && !animations.empty())
             animation_ = std::make_shared<gltf::Animation>(container_, animations[0]);
         walk();
@@ -120,7 +119,7 @@ class Reader {
             const Json& used = object_of(object_of(node, "extensions"), "KHR_lights_punctual");
             const Json& all = object_of(object_of(json_, "extensions"), "KHR_lights_punctual");
             if (const Json* const light = element(array_of(all, "lights"), index_of(used, "light")))
-                add_light(*light, text(node, "name"), place, motion_of(mover, index, false));
+                add_light(*light, text_of(node, "name"), place, motion_of(mover, index, false));
             add(array_of(node, "children"), {.node = 0, .parent = place, .above = index, .mover = mover});
         }
     }
@@ -167,7 +166,7 @@ class Reader {
     void add_camera(const Json& camera, const Placement& place, std::shared_ptr<const Motion> motion) {
         if (model_.camera) return model_.note("cameras other than the first are left out");
         Camera result{.position = place.origin, .towards = unit(-1 * place.z), .up = unit(place.y)};
-        if (text(camera, "type") == "orthographic") {
+        if (text_of(camera, "type") == "orthographic") {
             const Json& values = object_of(camera, "orthographic");
             const double x = std::abs(number(values, "xmag", 1)), y = std::abs(number(values, "ymag", 1));
             result.is_orthographic = true;
@@ -189,7 +188,7 @@ class Reader {
 
     void add_light(const Json& light, const std::string& node_name, const Placement& place,
                    std::shared_ptr<const Motion> motion) {
-        Light result{.name = text(light, "name"), .type = text(light, "type")};
+        Light result{.name = text_of(light, "name"), .type = text_of(light, "type")};
         if (result.name.empty()) result.name = node_name;
         if (result.type != "point" && result.type != "spot" && result.type != "directional")
             return model_.note("lights of other types than point, spot and directional are left out");
@@ -228,13 +227,13 @@ class Reader {
 
     void add_parts() {
         std::map<std::string, int> names;
-        for (const Json& material : array_of(json_, "materials")) ++names[text(material, "name")];
+        for (const Json& material : array_of(json_, "materials")) ++names[text_of(material, "name")];
         for (const std::optional<std::size_t> index : used_materials_) {
             Part part;
             part.is_flat = flat_materials_.contains(index);
             part.sides = is_double_sided(index) ? Sides::both : Sides::front;
             std::string name;
-            if (index) name = text(array_of(json_, "materials")[*index], "name");
+            if (index) name = text_of(array_of(json_, "materials")[*index], "name");
             if (used_materials_.size() > 1) {
                 const bool is_unique =
                     !name.empty() && names[name] == 1 && !name.starts_with('#') && name != "(none)";

@@ -1,12 +1,14 @@
 #include "import/gltf_animation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "import/placement.h"
 #include "import/vectors.h"
+#include "mesh_io/gltf/affine.h"
 
 import candela.util;
 
@@ -14,22 +16,16 @@ namespace importing::gltf {
 
 namespace {
 
+/// Values that are absent have no effect.
 Placement placement_of(const std::vector<double>& translation, const std::vector<double>& rotation,
                        const std::vector<double>& scale) {
-    Placement p;
-    if (!rotation.empty()) {
-        const double x = rotation[0], y = rotation[1], z = rotation[2], w = rotation[3];
-        p.x = {1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w)};
-        p.y = {2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w)};
-        p.z = {2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y)};
-    }
-    if (!scale.empty()) {
-        p.x = scale[0] * p.x;
-        p.y = scale[1] * p.y;
-        p.z = scale[2] * p.z;
-    }
-    if (!translation.empty()) p.origin = {translation[0], translation[1], translation[2]};
-    return p;
+    const auto vector = [](const std::vector<double>& v, double otherwise) {
+        return v.empty() ? Vector{otherwise, otherwise, otherwise} : Vector{v[0], v[1], v[2]};
+    };
+    std::array<double, 4> turn = {0, 0, 0, 1};
+    if (!rotation.empty()) std::ranges::copy(rotation, turn.begin());
+    const auto columns = mesh_io::gltf::affine_of(vector(translation, 0), turn, vector(scale, 1)).column;
+    return {columns[0], columns[1], columns[2], columns[3]};
 }
 
 void normalize(std::vector<double>& q) {
@@ -107,7 +103,7 @@ Placement Animation::Node::at(double time) const {
 
 Animation::Animation(Container& container, const Json& animation) {
     for (const Json& channel : array_of(animation, "channels")) {
-        if (text(object_of(channel, "target"), "path") == "weights") {
+        if (text_of(object_of(channel, "target"), "path") == "weights") {
             ++weights_;
         } else if (!add(container, animation, channel)) {
             ++unreadable_;
@@ -135,7 +131,7 @@ std::shared_ptr<const std::vector<double>> Animation::read(Container& container,
 bool Animation::add(Container& container, const Json& animation, const Json& channel) {
     const Json& target = object_of(channel, "target");
     const auto node = index_of(target, "node");
-    const std::string what = text(target, "path");
+    const std::string what = text_of(target, "path");
     const Json* const entry = element(array_of(container.json(), "nodes"), node);
     const Json* const sampler = element(array_of(animation, "samplers"), index_of(channel, "sampler"));
     if (entry == nullptr || sampler == nullptr || entry->contains("matrix")) return false;
@@ -144,7 +140,7 @@ bool Animation::add(Container& container, const Json& animation, const Json& cha
     if (!input || !output) return false;
     Channel result;
     result.components = what == "rotation" ? 4 : 3;
-    const std::string way = text(*sampler, "interpolation");
+    const std::string way = text_of(*sampler, "interpolation");
     result.way = way == "STEP" ? Way::step : way == "CUBICSPLINE" ? Way::spline : Way::linear;
     result.times = read(container, *input, 1);
     result.values = read(container, *output, result.components);

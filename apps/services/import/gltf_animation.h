@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "import/gltf_container.h"
-#include "import/gltf_json.h"
 #include "import/model.h"
 
 namespace importing::gltf {

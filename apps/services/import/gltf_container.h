@@ -2,32 +2,36 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "import/gltf_json.h"
 #include "import/model.h"
 #include "import/readers.h"
-
-import candela.util;
+#include "mesh_io/array.h"
+#include "mesh_io/file_bytes.h"
+#include "mesh_io/gltf/container.h"
+#include "mesh_io/gltf/values.h"
 
 namespace importing::gltf {
 
-/// The position of a GLB chunk's bytes in the file; empty if there is no such chunk.
-struct Chunk {
-    std::uint64_t begin = 0;
-    std::size_t size = 0;
-};
+using mesh_io::gltf::array_of;
+using mesh_io::gltf::element;
+using mesh_io::gltf::find;
+using mesh_io::gltf::index_of;
+using mesh_io::gltf::Json;
+using mesh_io::gltf::number;
+using mesh_io::gltf::numbers;
+using mesh_io::gltf::object_of;
+using mesh_io::gltf::text_of;
 
 class Container {
   public:
     /// Reads the JSON of a text or binary file. Reads the bytes of a GLB file, most of which are triangles,
     /// only on request. Throws candela::Error (failure).
-    explicit Container(Source source);
+    explicit Container(const Source& source);
 
     const Json& json() const { return json_; }
 
@@ -43,15 +47,16 @@ class Container {
 
   private:
     std::string_view buffer(std::size_t index);
+    mesh_io::Array<char> read_buffer(std::size_t index);
     std::string_view view(std::size_t index);
     /// A file next to this one.
     std::filesystem::path part_named(const std::string& uri) const;
 
     Source source_;
-    candela::RegularFile file_;
-    Chunk binary_;  // of a GLB file
+    mesh_io::Pieces file_;
+    mesh_io::gltf::Chunks chunks_;
     Json json_;
-    std::map<std::size_t, std::string> buffers_;
+    std::map<std::size_t, mesh_io::Array<char>> buffers_;
 };
 
 }  // namespace importing::gltf

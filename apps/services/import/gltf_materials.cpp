@@ -65,7 +65,7 @@ Materials::Materials(Container& container, candela::Registry& registry, Model& m
 
 Material Materials::material(std::size_t index) {
     const Json& from = array_of(json_, "materials")[index];
-    const std::string name = text(from, "name");
+    const std::string name = text_of(from, "name");
     const std::string shown =
         name.empty() ? fmt::format("material {}", index) : fmt::format("material '{}'", name);
     const Json* const glossy = find(object_of(from, "extensions"), "KHR_materials_pbrSpecularGlossiness");
@@ -146,7 +146,7 @@ Material Materials::specular_glossiness(const Json& from, const Json& extension,
 }
 
 void Materials::cut_out(const Json& from, double factor, Image* image, Material& to) {
-    const std::string mode = text(from, "alphaMode");
+    const std::string mode = text_of(from, "alphaMode");
     if (mode != "MASK" && mode != "BLEND") return;
     const double level = mode == "BLEND" ? 0.5 : number(from, "alphaCutoff", 0.5) / std::max(factor, 1e-3);
     const bool is_opaque = factor >= 1 && (image == nullptr || image->opacity.bytes.empty());

@@ -3,44 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 namespace mesh_io::gltf {
-
-namespace {
-
-std::size_t size_of(int component_type) {
-    switch (component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return 1;
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return 2;
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT:
-            return 4;
-        default:
-            return 0;
-    }
-}
-
-template <class T>
-T load(const unsigned char* from) {
-    T value;
-    std::memcpy(&value, from, sizeof value);
-    return value;
-}
-
-/// As KHR_mesh_quantization defines.
-template <class T>
-double scaled(const unsigned char* from, bool is_normalized) {
-    const double value = load<T>(from);
-    return is_normalized ? std::max(value / std::numeric_limits<T>::max(), -1.0) : value;
-}
-
-}  // namespace
 
 Accessor::Accessor(const Document& document, int index, int components) : document_(document), index_(index) {
     const auto& accessors = document.model.accessors;
@@ -58,7 +23,7 @@ Accessor::Accessor(const Document& document, int index, int components) : docume
     }
     count_ = a.count;
     normalized_ = a.normalized;
-    dense_ = bytes(a.bufferView, a.byteOffset, a.componentType, components, count_);
+    dense_ = elements(a.bufferView, a.byteOffset, a.componentType, components, count_);
     if (!a.sparse.isSparse) return;
     if (a.sparse.count < 0 || static_cast<std::size_t>(a.sparse.count) > count_)
         throw BadFile(fmt::format("has an accessor {} with more sparse elements than elements", index));
@@ -73,45 +38,25 @@ Accessor::Accessor(const Document& document, int index, int components) : docume
     if (size_of(a.sparse.indices.componentType) == 0 ||
         a.sparse.indices.componentType == TINYGLTF_COMPONENT_TYPE_FLOAT)
         throw BadFile(fmt::format("has an accessor {} whose sparse indices are not integers", index));
-    sparse_indices_ = bytes(a.sparse.indices.bufferView, offset(a.sparse.indices.byteOffset),
-                            a.sparse.indices.componentType, 1, sparse_count_);
-    sparse_values_ = bytes(a.sparse.values.bufferView, offset(a.sparse.values.byteOffset), a.componentType,
-                           components, sparse_count_);
+    sparse_indices_ = elements(a.sparse.indices.bufferView, offset(a.sparse.indices.byteOffset),
+                               a.sparse.indices.componentType, 1, sparse_count_);
+    sparse_values_ = elements(a.sparse.values.bufferView, offset(a.sparse.values.byteOffset), a.componentType,
+                              components, sparse_count_);
 }
 
-Accessor::Bytes Accessor::bytes(int view_index, std::size_t offset, int component_type, int components,
-                                std::size_t count) const {
+Elements Accessor::elements(int view_index, std::size_t offset, int component_type, int components,
+                            std::size_t count) const {
     if (view_index < 0) return {};
     const std::string_view data = document_.view(static_cast<std::size_t>(view_index));
     const tinygltf::BufferView& view = document_.model.bufferViews[static_cast<std::size_t>(view_index)];
-    const std::size_t element = size_of(component_type) * static_cast<std::size_t>(components);
-    const std::size_t stride = view.byteStride == 0 ? element : view.byteStride;
-    if (stride < element || stride == 0)
+    const auto numbers = static_cast<std::size_t>(components);
+    std::optional<std::size_t> stride;
+    if (view.byteStride != 0) stride = view.byteStride;
+    if (stride && *stride < size_of(component_type) * numbers)
         throw BadFile(fmt::format("has a buffer view {} whose stride is too short", view_index));
-    if (count == 0) return {};
-    const bool is_there = offset <= data.size() && element <= data.size() - offset &&
-                          count - 1 <= (data.size() - offset - element) / stride;
-    if (!is_there) throw BadFile(fmt::format("has an accessor {} that reaches beyond its buffer", index_));
-    return {reinterpret_cast<const unsigned char*>(data.data()) + offset, stride, component_type};
-}
-
-double Accessor::value(const Bytes& bytes, std::size_t i, int c) const {
-    const unsigned char* const from =
-        bytes.first + i * bytes.stride + static_cast<std::size_t>(c) * size_of(bytes.component_type);
-    switch (bytes.component_type) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE:
-            return scaled<std::int8_t>(from, normalized_);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-            return scaled<std::uint8_t>(from, normalized_);
-        case TINYGLTF_COMPONENT_TYPE_SHORT:
-            return scaled<std::int16_t>(from, normalized_);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
-            return scaled<std::uint16_t>(from, normalized_);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-            return scaled<std::uint32_t>(from, normalized_);
-        default:
-            return load<float>(from);
-    }
+    const auto found = elements_in(data, offset, stride, component_type, numbers, count);
+    if (!found) throw BadFile(fmt::format("has an accessor {} that reaches beyond its buffer", index_));
+    return *found;
 }
 
 int Accessor::components_of(const Document& document, int index) {
@@ -160,7 +105,8 @@ Array<double> Accessor::read(int c) const {
         for (std::size_t i = 0; i < count_; ++i) values[i] = double{load<float>(first + i * dense_.stride)};
     } else {
         for (std::size_t i = 0; i < count_; ++i)
-            values[i] = dense_.first == nullptr ? 0.0 : value(dense_, i, c);
+            values[i] =
+                dense_.first == nullptr ? 0.0 : dense_.number(i, static_cast<std::size_t>(c), normalized_);
     }
     for (std::size_t k = 0; k < sparse_count_; ++k) {
         const auto integer = [&]() -> std::size_t {
@@ -178,7 +124,7 @@ Array<double> Accessor::read(int c) const {
         if (i >= count_)
             throw BadFile(
                 fmt::format("has an accessor {} with a sparse element {} of {}", index_, i, count_));
-        values[i] = value(sparse_values_, k, c);
+        values[i] = sparse_values_.number(k, static_cast<std::size_t>(c), normalized_);
     }
     return values;
 }

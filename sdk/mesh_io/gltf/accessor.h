@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mesh_io/gltf/document.h"
+#include "mesh_io/gltf/elements.h"
 #include "mesh_io/surface.h"
 
 namespace mesh_io::gltf {
@@ -26,21 +27,16 @@ class Accessor {
     std::optional<Array<std::uint32_t>> whole_numbers() const;
 
   private:
-    struct Bytes {
-        const unsigned char* first = nullptr;  // null: all zero
-        std::size_t stride = 0;
-        int component_type = 0;
-    };
-    Bytes bytes(int view, std::size_t offset, int component_type, int components, std::size_t count) const;
-    double value(const Bytes& bytes, std::size_t i, int c) const;
+    Elements elements(int view, std::size_t offset, int component_type, int components,
+                      std::size_t count) const;
 
     const Document& document_;
     int index_;
     std::size_t count_ = 0;
     bool normalized_ = false;
-    Bytes dense_;
+    Elements dense_;
     std::size_t sparse_count_ = 0;
-    Bytes sparse_indices_, sparse_values_;
+    Elements sparse_indices_, sparse_values_;
 };
 
 }  // namespace mesh_io::gltf

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "mesh_io/surface.h"
+#include <cmath>
+
+#include "mesh_io/bad_file.h"
 
 namespace mesh_io::gltf {
 
@@ -32,6 +34,8 @@ void require_shallow(std::string_view json) {
 }  // namespace
 
 Json parsed(std::string_view text) {
+    // Chunks padded with zeros instead of blanks.
+    while (text.ends_with('\0')) text.remove_suffix(1);
     require_shallow(text);
     try {
         Json json = Json::parse(text);
@@ -42,24 +46,27 @@ Json parsed(std::string_view text) {
     }
 }
 
+const Json* find(const Json& object, const char* name) {
+    if (!object.is_object()) return nullptr;
+    const auto found = object.find(name);
+    return found != object.end() ? &*found : nullptr;
+}
+
 const Json& array_of(const Json& object, const char* name) {
     static const Json k_empty = Json::array();
-    if (!object.is_object()) return k_empty;
-    const auto found = object.find(name);
-    return found != object.end() && found->is_array() ? *found : k_empty;
+    const Json* const found = find(object, name);
+    return found != nullptr && found->is_array() ? *found : k_empty;
 }
 
 const Json& object_of(const Json& object, const char* name) {
     static const Json k_empty = Json::object();
-    if (!object.is_object()) return k_empty;
-    const auto found = object.find(name);
-    return found != object.end() && found->is_object() ? *found : k_empty;
+    const Json* const found = find(object, name);
+    return found != nullptr && found->is_object() ? *found : k_empty;
 }
 
 const Json* extension_of(const Json& object, const char* name) {
-    const Json& extensions = object_of(object, "extensions");
-    const auto found = extensions.find(name);
-    return found != extensions.end() && found->is_object() ? &*found : nullptr;
+    const Json* const found = find(object_of(object, "extensions"), name);
+    return found != nullptr && found->is_object() ? found : nullptr;
 }
 
 const Json* extension_of(const Json& object, const char* name, const char* other_name) {
@@ -68,9 +75,8 @@ const Json* extension_of(const Json& object, const char* name, const char* other
 }
 
 std::optional<std::size_t> index_of(const Json& object, const char* name) {
-    if (!object.is_object()) return std::nullopt;
-    const auto found = object.find(name);
-    if (found == object.end() || !found->is_number_unsigned()) return std::nullopt;
+    const Json* const found = find(object, name);
+    if (found == nullptr || !found->is_number_unsigned()) return std::nullopt;
     return found->get<std::size_t>();
 }
 
@@ -78,10 +84,28 @@ const Json* element(const Json& array, std::optional<std::size_t> index) {
     return index && *index < array.size() ? &array[*index] : nullptr;
 }
 
+double number(const Json& object, const char* name, double otherwise) {
+    const Json* const found = find(object, name);
+    if (found == nullptr || !found->is_number()) return otherwise;
+    const auto value = found->get<double>();
+    return std::isfinite(value) ? value : otherwise;
+}
+
+std::vector<double> numbers(const Json& object, const char* name, std::size_t count) {
+    const Json& array = array_of(object, name);
+    if (array.size() != count) return {};
+    std::vector<double> result;
+    for (const Json& each : array) {
+        const double value = each.is_number() ? each.get<double>() : NAN;
+        if (!std::isfinite(value)) return {};
+        result.push_back(value);
+    }
+    return result;
+}
+
 std::string text_of(const Json& object, const char* name) {
-    if (!object.is_object()) return "";
-    const auto found = object.find(name);
-    return found != object.end() && found->is_string() ? found->get<std::string>() : "";
+    const Json* const found = find(object, name);
+    return found != nullptr && found->is_string() ? found->get<std::string>() : "";
 }
 
 }  // namespace mesh_io::gltf
