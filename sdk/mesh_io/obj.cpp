@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "mesh_io/obj_statements.h"
 #include "mesh_io/polygons.h"
 #include "mesh_io/readers.h"
 #include "mesh_io/text_scanner.h"
@@ -51,6 +52,7 @@ class Reader {
             triangulate(polygons_, {}, surface_);
         }
         note_losses();
+        surface_.materials = materials_.names();
         return std::move(surface_);
     }
 
@@ -150,7 +152,7 @@ class Reader {
         corners_.resize(polygons_.corners.size());
         if (smoothing_.size() == polygons_.ends.size()) return;
         smoothing_.push_back(group_);
-        if (!material_) material_ = number_of(k_no_material);
+        if (!material_) material_ = materials_.of(k_no_material);
         const std::size_t before = polygons_.ends.size() < 2 ? 0 : *(polygons_.ends.end() - 2);
         surface_.material.resize(surface_.material.size() + polygons_.ends.back() - before - 2, *material_);
     }
@@ -180,19 +182,8 @@ class Reader {
 
     void use_material() {
         ++losses_["use of a material"];
-        // A name may contain '#' and end in a backslash: "Paint #2", "wood\\".
-        std::string name;
-        TextScanner words(scanner_.rest_of_line());
-        for (std::string_view word = words.word(); !word.empty(); word = words.word())
-            name.append(name.empty() ? "" : " ").append(word);
-        material_ = number_of(name.empty() ? k_no_material : name);
-    }
-
-    std::uint32_t number_of(const std::string& material) {
-        const auto [known, is_new] =
-            materials_.try_emplace(material, static_cast<std::uint32_t>(surface_.materials.size()));
-        if (is_new) surface_.materials.push_back(material);
-        return known->second;
+        const std::string name = material_name(scanner_.rest_of_line());
+        material_ = materials_.of(name.empty() ? k_no_material : name);
     }
 
     void smoothing_group() {
@@ -380,7 +371,7 @@ class Reader {
     std::uint64_t non_finite_normals_ = 0, non_finite_uv_ = 0;
     bool has_free_surfaces_ = false;
     std::uint32_t group_ = k_flat;
-    std::map<std::string, std::uint32_t, std::less<>> materials_;  // their numbers
+    MaterialNumbers materials_;
     std::optional<std::uint32_t> material_;
     bool has_smoothing_ = false;
     std::map<std::string, std::uint64_t> losses_;

@@ -48,7 +48,8 @@ class Lines {
         const std::size_t end = bytes_.find_first_of("\r\n", at_);
         // An element's text may end with the file; a header may not.
         if (end == std::string_view::npos) throw BadFile("is not a PLY file: it has no line 'end_header'");
-        TextScanner scanner(bytes_.substr(at_, end - at_));
+        text_ = bytes_.substr(at_, end - at_);
+        TextScanner scanner(text_);
         at_ = end + 1;
         if (bytes_[end] == '\r' && !ends_with_cr_only_ && bytes_.substr(at_).starts_with('\n')) ++at_;
         std::vector<std::string_view> words;
@@ -60,11 +61,17 @@ class Lines {
         }
         return words;
     }
+    /// The same line after its first word, without surrounding blanks.
+    std::string_view after_keyword() const {
+        TextScanner scanner(text_);
+        scanner.word();
+        return scanner.rest_of_line();
+    }
     std::size_t number() const { return number_; }
     std::size_t position() const { return at_; }
 
   private:
-    std::string_view bytes_;
+    std::string_view bytes_, text_;
     std::size_t at_ = 0;
     std::size_t number_ = 0;
     bool ends_with_cr_only_ = false;
@@ -148,7 +155,9 @@ std::optional<std::size_t> Element::find(std::initializer_list<std::string_view>
     return std::nullopt;
 }
 
-Header read_header(std::string_view bytes) {
+Header read_header(std::string_view bytes) { return read_header(bytes, bytes.size()); }
+
+Header read_header(std::string_view bytes, std::size_t file_size) {
     Lines lines(bytes);
     if (bytes.find_first_of("\r\n") == std::string_view::npos ||
         lines.next() != std::vector<std::string_view>{"ply"})
@@ -157,7 +166,11 @@ Header read_header(std::string_view bytes) {
     bool has_format = false;
     for (;;) {
         const std::vector<std::string_view> words = lines.next();
-        if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
+        if (words.empty() || words[0] == "obj_info") continue;
+        if (words[0] == "comment") {
+            header.comments.emplace_back(lines.after_keyword());
+            continue;
+        }
         if (words[0] == "end_header") break;
         if (words[0] == "format") {
             if (words.size() < 2) refuse(lines, "the format is missing");
@@ -177,8 +190,16 @@ Header read_header(std::string_view bytes) {
     if (!has_format) throw BadFile("is not a PLY file: it has no line 'format'");
     header.size = lines.position();
     header.lines = lines.number();
-    check_counts(header, bytes.size());
+    check_counts(header, file_size);
     return header;
+}
+
+std::vector<std::string> texture_files(const Header& header) {
+    constexpr std::string_view k_key = "TextureFile ";
+    std::vector<std::string> names;
+    for (const std::string& comment : header.comments)
+        if (comment.starts_with(k_key)) names.push_back(comment.substr(k_key.size()));
+    return names;
 }
 
 }  // namespace mesh_io::ply

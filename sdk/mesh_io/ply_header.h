@@ -42,11 +42,17 @@ enum class Encoding { text, little_endian, big_endian };
 struct Header {
     Encoding encoding = Encoding::text;
     std::vector<Element> elements;
-    std::size_t size = 0;   // bytes, with the end of its last line
-    std::size_t lines = 0;  // of text
+    std::vector<std::string> comments;  // without the keyword and surrounding blanks
+    std::size_t size = 0;               // bytes, with the end of its last line
+    std::size_t lines = 0;              // of text
 };
 
 /// Throws BadFile if the header is invalid, or declares more elements than the remaining bytes can hold.
 Header read_header(std::string_view bytes);
+/// Reads only the file's beginning: of a file of `file_size` bytes, the header is in `bytes`.
+Header read_header(std::string_view bytes, std::size_t file_size);
+
+/// The pictures that MeshLab names in comments.
+std::vector<std::string> texture_files(const Header& header);
 
 }  // namespace mesh_io::ply

@@ -8,8 +8,9 @@
 #include <utility>
 
 #include "import/named_file.h"
-#include "import/obj_statements.h"
 #include "import/pictures.h"
+#include "mesh_io/bad_file.h"
+#include "mesh_io/text_scanner.h"
 
 import candela.util;
 
@@ -21,7 +22,8 @@ namespace {
 
 constexpr std::size_t k_most_library_bytes = std::size_t{16} << 20;
 
-bool is_utf16(std::string_view text) { return text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"); }
+/// The name without a possible comment: "red" of "red # the door".
+std::string_view without_comment(std::string_view name) { return name.substr(0, name.find(" #")); }
 
 bool are_all(const std::vector<double>& values, double value) {
     return !values.empty() && std::ranges::all_of(values, [&](double x) { return x == value; });
@@ -44,7 +46,6 @@ bool limit(std::vector<double>& kd, std::vector<double>& ks) {
 }  // namespace
 
 void MaterialLibraries::read_named(std::string_view names) {
-    names = trimmed(names);
     if (names.empty() || !named_.emplace(names).second) return;
     constexpr std::size_t k_most_statements = 1000;
     if (named_.size() > k_most_statements)
@@ -53,8 +54,8 @@ void MaterialLibraries::read_named(std::string_view names) {
     if (read_if_there(names)) return;
     // Several names, if each has an extension.
     std::vector<std::string_view> words;
-    for (std::string_view rest = names, word = word_from(rest); !word.empty(); word = word_from(rest))
-        words.push_back(word);
+    mesh_io::TextScanner scanner(names);
+    for (std::string_view word = scanner.word(); !word.empty(); word = scanner.word()) words.push_back(word);
     const bool are_several =
         std::ranges::all_of(words, [](std::string_view word) { return word.find('.') != word.npos; });
     if (!are_several) words = {names};
@@ -85,22 +86,20 @@ void MaterialLibraries::read(const fs::path& file) {
     if (!text) return model_.note(fmt::format("the material library '{}' cannot be read", file.string()));
     if (text->size() > k_most_library_bytes)
         return model_.note(fmt::format("the material library '{}' is too large", file.string()));
-    if (is_utf16(*text))
+    mesh_io::MaterialLibrary library;
+    try {
+        library = mesh_io::read_mtl(*text);
+    } catch (const mesh_io::BadFile&) {
         return model_.note(fmt::format(
             "the material library '{}' is left out: it is UTF-16; save it as UTF-8", file.string()));
-    folder_ = file.parent_path();
-    Description* current = nullptr;
-    each_statement(*text, [&](const Statement& s) {
-        if (s.keyword == "newmtl") {
-            const std::string name = name_from(s.rest);
-            current = &descriptions_[name];
-            *current = {};
-            if (const std::string_view bare = without_comment(name); bare != name)
-                commented_.try_emplace(std::string(bare), name);
-        } else if (current != nullptr) {
-            statement(lower(s.keyword), s.rest, *current);
-        }
-    });
+    }
+    for (std::string& note : library.notes) model_.note(std::move(note));
+    for (mesh_io::MtlMaterial& material : library.materials) {
+        if (const std::string_view bare = without_comment(material.name); bare != material.name)
+            commented_.try_emplace(std::string(bare), material.name);
+        std::string name = material.name;
+        descriptions_.insert_or_assign(std::move(name), Description{std::move(material), file.parent_path()});
+    }
 }
 
 const MaterialLibraries::Description* MaterialLibraries::find(const std::string& name) const {
@@ -123,7 +122,8 @@ std::vector<double> MaterialLibraries::coefficients(const std::vector<double>& v
 }
 
 Material MaterialLibraries::material(const std::string& name) {
-    const Description& d = *find(name);
+    const Description& description = *find(name);
+    const mesh_io::MtlMaterial& d = description.material;
     Material material{.name = name};
     if (d.illumination == 0)
         model_.note("materials of illumination model 0, a constant colour, are lit like the others");
@@ -154,90 +154,20 @@ Material MaterialLibraries::material(const std::string& name) {
         material.values.emplace_back(parameter, are_all(*rgb, (*rgb)[0]) ? std::vector{(*rgb)[0]} : *rgb);
     material.values.push_back({"shininess", {shininess}});
     if (!d.texture.empty()) {
-        material.picture = picture(name, d);
+        material.picture = picture(name, description);
         material.clamps = d.clamps;
     }
     return material;
 }
 
-void MaterialLibraries::statement(const std::string& keyword, std::string_view rest, Description& to) {
-    if (keyword == "ka") return color(rest, to.ka);
-    if (keyword == "kd") return color(rest, to.kd);
-    if (keyword == "ks") return color(rest, to.ks);
-    if (keyword == "map_kd") return texture(rest, to);
-    const std::vector<double> numbers = numbers_from(rest);
-    const double first = numbers.empty() ? 0 : numbers[0];
-    if (keyword == "ns") {
-        to.shininess = first;
-    } else if (keyword == "illum") {
-        to.illumination = static_cast<int>(std::clamp(first, 0.0, 10.0));
-    } else if (keyword == "d" || keyword == "tr") {
-        if (numbers.empty() || first != (keyword == "d" ? 1 : 0))
-            model_.note("the opacity of materials is left out; they are opaque");
-    } else if (keyword == "ke") {
-        if (std::ranges::any_of(numbers, [](double x) { return x > 0; }))
-            model_.note("the light that materials emit is left out");
-    } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" || keyword == "disp" ||
-               keyword == "decal" || keyword == "refl") {
-        model_.note(fmt::format("textures other than colour textures are left out, such as '{}'", keyword));
-    } else if (keyword == "pr" || keyword == "pm" || keyword == "ps" || keyword == "pc" || keyword == "pcr" ||
-               keyword == "aniso" || keyword == "anisor") {
-        model_.note("the roughness and metalness of materials are left out; they become Phong materials");
-    } else if (keyword == "tf") {
-        // White transmits everything, and so says nothing.
-        if (!are_all(numbers, 1)) model_.note("the transmission of materials is left out");
-    }
-    // Ni, the index of refraction, matters only with opacity; sharpness only for reflections.
-}
-
-void MaterialLibraries::color(std::string_view rest, std::vector<double>& to) {
-    std::string_view after = rest;
-    const std::string_view first = word_from(after);
-    if (first == "spectral" || first == "xyz")
-        return model_.note("material colours given as spectra or XYZ are left out");
-    std::vector<double> numbers = numbers_from(rest);
-    if (numbers.size() == 1) numbers = {numbers[0], numbers[0], numbers[0]};
-    if (numbers.size() < 3) return model_.note("material colours that are not numbers are left out");
-    numbers.resize(3);
-    to = numbers;
-}
-
-/// Options precede the name, which may contain blanks.
-void MaterialLibraries::texture(std::string_view rest, Description& to) {
-    while (rest.starts_with('-')) {
-        std::string_view after = rest;
-        const std::string option = lower(word_from(after));
-        const bool takes_numbers = option == "-o" || option == "-s" || option == "-t" || option == "-mm";
-        const bool takes_word = option == "-clamp" || option == "-blendu" || option == "-blendv" ||
-                                option == "-cc" || option == "-texres" || option == "-boost" ||
-                                option == "-bm" || option == "-imfchan" || option == "-type";
-        if (!takes_numbers && !takes_word) break;
-        if (takes_word) {
-            const std::string value = lower(word_from(after));
-            if (option == "-clamp") to.clamps = value == "on";
-        } else {
-            for (int i = 0; i < 3; ++i) {
-                std::string_view next = after;
-                const std::string_view word = word_from(next);
-                if (next.empty() || numbers_from(word).empty()) break;
-                after = next;
-            }
-            model_.note("the offset and scale of textures are left out");
-        }
-        rest = after;
-    }
-    to.texture = trimmed(rest);
-    to.texture_folder = folder_;
-}
-
 std::optional<std::size_t> MaterialLibraries::picture(const std::string& material, const Description& of) {
     const auto say = [&](const char* kind, std::string_view of_one, std::string_view of_many,
                          std::string_view rest = "") {
-        const std::string which = fmt::format("'{}' of material '{}'", of.texture, material);
+        const std::string which = fmt::format("'{}' of material '{}'", of.material.texture, material);
         model_.count(kind, fmt::format("the texture {} {}{}", which, of_one, rest),
                      fmt::format("{{}} textures {}, the first of them {}{}", of_many, which, rest));
     };
-    const auto found = find_named(of.texture_folder, of.texture);
+    const auto found = find_named(of.folder, of.material.texture);
     if (!found) {
         say("missing textures", "does not exist", "do not exist");
         return std::nullopt;

@@ -11,6 +11,7 @@
 
 #include "import/model.h"
 #include "import/readers.h"
+#include "mesh_io/mtl.h"
 
 import candela.plugins;
 
@@ -31,30 +32,22 @@ class MaterialLibraries {
     Material material(const std::string& name);
 
   private:
-    /// A material as described by a library, before its translation.
+    /// A material before its translation.
     struct Description {
-        std::vector<double> ka, kd, ks;
-        double shininess = 0;
-        int illumination = 2;
-        std::string texture;
-        std::filesystem::path texture_folder{};  // the folder that it is relative to
-        bool clamps = false;
+        mesh_io::MtlMaterial material;
+        std::filesystem::path folder;  // of its library, which its texture's name is relative to
     };
 
     bool read_if_there(std::string_view name);
     void read(const std::filesystem::path& file);
     /// Null if there is none.
     const Description* find(const std::string& name) const;
-    void statement(const std::string& keyword, std::string_view rest, Description& to);
-    void color(std::string_view rest, std::vector<double>& to);
-    void texture(std::string_view rest, Description& to);
     std::vector<double> coefficients(const std::vector<double>& value, double otherwise);
     std::optional<std::size_t> picture(const std::string& material, const Description& of);
 
     Model& model_;
     const Source& source_;
     candela::Registry& registry_;
-    std::filesystem::path folder_;              // of the library being read
     std::set<std::string, std::less<>> named_;  // by mtllib statements
     std::set<std::filesystem::path> known_files_;
     std::map<std::string, Description, std::less<>> descriptions_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -9,6 +10,9 @@
 #include <vector>
 
 #include "import/gltf_container.h"
+#include "import/readers.h"
+#include "mesh_io/bad_file.h"
+#include "mesh_io/obj_statements.h"
 
 import candela.util;
 
@@ -19,7 +23,7 @@ namespace importing {
 namespace {
 
 constexpr std::size_t k_most_library_bytes = 64u << 20;
-constexpr std::string_view k_blanks = " \t\r";
+constexpr std::string_view k_blanks = " \t";
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -36,68 +40,64 @@ bool is_file(const fs::path& named, const fs::path& file) {
            fs::equivalent(named.parent_path() / ".", target.parent_path(), problem);
 }
 
-/// Whether `is_wanted` returns true for a line without its leading blanks.
-template <class IsWanted>
-bool any_line(std::string_view text, const IsWanted& is_wanted) {
-    for (std::size_t at = 0; at < text.size();) {
-        const std::size_t end = std::min(text.find('\n', at), text.size());
-        const std::string_view line = text.substr(at, end - at);
-        if (is_wanted(line.substr(std::min(line.find_first_not_of(k_blanks), line.size())))) return true;
-        at = end + 1;
-    }
-    return false;
-}
-
-/// The possible names after a line's keyword: each word, or several with the blanks between them.
-std::vector<std::string> possible_names(std::string_view line) {
+/// The names that the rest of a statement may contain: each word, or several with the blanks between them.
+std::vector<std::string> possible_names(std::string_view rest) {
     constexpr std::size_t k_most_words = 32;
     std::vector<std::pair<std::size_t, std::size_t>> words;
-    for (std::size_t at = 0; at < line.size() && words.size() < k_most_words;) {
-        const std::size_t end = std::min(line.find_first_of(k_blanks, at), line.size());
+    for (std::size_t at = 0; at < rest.size() && words.size() < k_most_words;) {
+        const std::size_t end = std::min(rest.find_first_of(k_blanks, at), rest.size());
         words.emplace_back(at, end);
-        at = std::min(line.find_first_not_of(k_blanks, end), line.size());
+        at = std::min(rest.find_first_not_of(k_blanks, end), rest.size());
     }
     std::vector<std::string> names;
-    for (std::size_t i = 1; i < words.size(); ++i) {
+    for (std::size_t i = 0; i < words.size(); ++i) {
         for (std::size_t j = i; j < words.size(); ++j) {
-            names.emplace_back(line.substr(words[i].first, words[j].second - words[i].first));
+            names.emplace_back(rest.substr(words[i].first, words[j].second - words[i].first));
             std::ranges::replace(names.back(), '\\', '/');
         }
     }
     return names;
 }
 
-bool is_named(std::string_view line, const fs::path& folder, const fs::path& file) {
-    return std::ranges::any_of(possible_names(line),
+/// Whether `is_wanted` returns true for a statement of a text, with the names that it may contain.
+template <class IsWanted>
+bool any_statement(const std::optional<std::string>& text, const IsWanted& is_wanted) {
+    bool is_found = false;
+    try {
+        mesh_io::each_statement(text ? *text : std::string_view(),
+                                [&](const mesh_io::Statement& s) { is_found = is_found || is_wanted(s); });
+    } catch (const mesh_io::BadFile&) {
+        return false;  // its reader will report the error
+    }
+    return is_found;
+}
+
+bool is_named(std::string_view rest, const fs::path& folder, const fs::path& file) {
+    return std::ranges::any_of(possible_names(rest),
                                [&](const std::string& name) { return is_file(folder / name, file); });
 }
 
 bool is_part_of_library(const fs::path& library, const fs::path& file) {
-    const auto text = candela::read_text_file(library, k_most_library_bytes);
-    return text && any_line(*text, [&](std::string_view line) {
-               return is_named(line, library.parent_path(), file);
-           });
+    return any_statement(
+        candela::read_text_file(library, k_most_library_bytes),
+        [&](const mesh_io::Statement& s) { return is_named(s.rest, library.parent_path(), file); });
 }
 
 bool is_part_of_obj(const fs::path& model, const fs::path& file) {
-    constexpr std::string_view k_keyword = "mtllib";
-    const auto text = candela::read_text_file(model);
-    return text && any_line(*text, [&](std::string_view line) {
-               if (!is_same_word(line.substr(0, k_keyword.size()), k_keyword)) return false;
-               return std::ranges::any_of(possible_names(line), [&](const std::string& name) {
+    return any_statement(candela::read_text_file(model), [&](const mesh_io::Statement& s) {
+        return is_same_word(s.keyword, "mtllib") &&
+               std::ranges::any_of(possible_names(s.rest), [&](const std::string& name) {
                    const fs::path library = model.parent_path() / name;
                    return is_file(library, file) || is_part_of_library(library, file);
                });
-           });
+    });
 }
 
-/// A texture named in a comment, as MeshLab writes it.
 bool is_part_of_ply(const fs::path& model, const fs::path& file) {
-    constexpr std::size_t k_longest_header = 1 << 16;
-    const auto text = candela::read_text_file(model, k_longest_header);
-    return text && any_line(*text, [&](std::string_view line) {
-               return line.starts_with("comment") && is_named(line, model.parent_path(), file);
-           });
+    return std::ranges::any_of(textures_of_ply(model), [&](std::string name) {
+        std::ranges::replace(name, '\\', '/');
+        return is_file(model.parent_path() / name, file);
+    });
 }
 
 bool is_named_in_gltf(const fs::path& model, const fs::path& file, bool with_pictures) {

@@ -1,15 +1,17 @@
 // Textures of PLY files by MeshLab; the format has no materials.
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "import/named_file.h"
 #include "import/readers.h"
+#include "mesh_io/bad_file.h"
+#include "mesh_io/file_bytes.h"
+#include "mesh_io/ply_header.h"
 
 import candela.plugins;
 import candela.util;
@@ -18,28 +20,22 @@ namespace fs = std::filesystem;
 
 namespace importing {
 
-namespace {
-
-/// The names after "comment TextureFile" in a PLY file's header.
-std::vector<std::string> texture_names(const fs::path& file) {
-    std::vector<std::string> names;
-    std::ifstream in(file, std::ios::binary);
-    constexpr std::string_view k_key = "comment TextureFile ";
-    constexpr int k_most_lines = 1000;
-    std::string line;
-    for (int i = 0; i < k_most_lines && std::getline(in, line) && !line.starts_with("end_header"); ++i) {
-        while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
-        if (line.starts_with(k_key)) names.push_back(line.substr(k_key.size()));
+std::vector<std::string> textures_of_ply(const fs::path& file) {
+    try {
+        mesh_io::Pieces pieces(file);
+        constexpr std::size_t k_longest_header = 1 << 20;
+        const std::string_view bytes = pieces.at(0, std::min(pieces.size(), k_longest_header));
+        return mesh_io::ply::texture_files(
+            mesh_io::ply::read_header(mesh_io::without_mark(bytes), pieces.size()));
+    } catch (const mesh_io::BadFile&) {
+        return {};  // the shape `mesh` reports the error
     }
-    return names;
 }
-
-}  // namespace
 
 Model read_ply(const Source& source, candela::Registry& registry) {
     Model model;
     Part& part = model.parts.emplace_back();
-    const std::vector<std::string> names = texture_names(source.file);
+    const std::vector<std::string> names = textures_of_ply(source.file);
     if (names.empty()) return model;
     const std::string& name = names.front();
     if (names.size() > 1) model.note(fmt::format("only the first of its {} textures is shown", names.size()));

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "import/model.h"
 
@@ -30,6 +32,9 @@ Model read_gltf(const Source& source, bool with_animation, candela::Registry& re
 
 /// PLY with the texture named in MeshLab's comment.
 Model read_ply(const Source& source, candela::Registry& registry);
+
+/// The names of the textures of a PLY file; none of an invalid file.
+std::vector<std::string> textures_of_ply(const std::filesystem::path& file);
 
 /// Whether `part`, which `model` refers to, is in its folder or below once links are resolved: models are
 /// often someone else's.

@@ -1,0 +1,149 @@
+#include "mesh_io/mtl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+#include "mesh_io/obj_statements.h"
+#include "mesh_io/text_scanner.h"
+
+namespace mesh_io {
+
+namespace {
+
+std::string lower(std::string_view word) {
+    std::string result;
+    for (const char c : word) result += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return result;
+}
+
+/// Takes the first word from `rest`.
+std::string_view word_from(std::string_view& rest) {
+    TextScanner scanner(rest);
+    const std::string_view word = scanner.word();
+    rest = scanner.rest_of_line();
+    return word;
+}
+
+/// Up to four finite numbers.
+std::vector<double> numbers_from(std::string_view rest) {
+    std::vector<double> numbers;
+    TextScanner scanner(rest);
+    for (std::string_view word = scanner.word(); !word.empty() && numbers.size() < 4; word = scanner.word()) {
+        const auto value = number_from(word);
+        if (!value || !std::isfinite(*value)) break;
+        numbers.push_back(*value);
+    }
+    return numbers;
+}
+
+bool are_all(const std::vector<double>& values, double value) {
+    return !values.empty() && std::ranges::all_of(values, [&](double x) { return x == value; });
+}
+
+class Reader {
+  public:
+    MaterialLibrary read(std::string_view text) {
+        MtlMaterial* current = nullptr;
+        each_statement(text, [&](const Statement& s) {
+            if (s.keyword == "newmtl") {
+                std::string name = material_name(s.rest);
+                const std::size_t number = numbers_.of(name);
+                library_.materials.resize(numbers_.names().size());
+                current = &library_.materials[number];
+                *current = {};
+                current->name = std::move(name);
+            } else if (current != nullptr) {
+                statement(lower(s.keyword), s.rest, *current);
+            }
+        });
+        return std::move(library_);
+    }
+
+  private:
+    void note(std::string sentence) {
+        if (std::ranges::find(library_.notes, sentence) == library_.notes.end())
+            library_.notes.push_back(std::move(sentence));
+    }
+
+    void statement(const std::string& keyword, std::string_view rest, MtlMaterial& to) {
+        if (keyword == "ka") return color(rest, to.ka);
+        if (keyword == "kd") return color(rest, to.kd);
+        if (keyword == "ks") return color(rest, to.ks);
+        if (keyword == "map_kd") return texture(rest, to);
+        const std::vector<double> numbers = numbers_from(rest);
+        const double first = numbers.empty() ? 0 : numbers[0];
+        if (keyword == "ns") {
+            to.shininess = first;
+        } else if (keyword == "illum") {
+            to.illumination = static_cast<int>(std::clamp(first, 0.0, 10.0));
+        } else if (keyword == "d" || keyword == "tr") {
+            if (numbers.empty() || first != (keyword == "d" ? 1 : 0))
+                note("the opacity of materials is left out; they are opaque");
+        } else if (keyword == "ke") {
+            if (std::ranges::any_of(numbers, [](double x) { return x > 0; }))
+                note("the light that materials emit is left out");
+        } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" ||
+                   keyword == "disp" || keyword == "decal" || keyword == "refl") {
+            note(fmt::format("textures other than colour textures are left out, such as '{}'", keyword));
+        } else if (keyword == "pr" || keyword == "pm" || keyword == "ps" || keyword == "pc" ||
+                   keyword == "pcr" || keyword == "aniso" || keyword == "anisor") {
+            note("the roughness and metalness of materials are left out; they become Phong materials");
+        } else if (keyword == "tf") {
+            // White transmits everything, and so says nothing.
+            if (!are_all(numbers, 1)) note("the transmission of materials is left out");
+        }
+        // Ni, the index of refraction, matters only with opacity; sharpness only for reflections.
+    }
+
+    void color(std::string_view rest, std::vector<double>& to) {
+        std::string_view after = rest;
+        const std::string_view first = word_from(after);
+        if (first == "spectral" || first == "xyz")
+            return note("material colours given as spectra or XYZ are left out");
+        std::vector<double> numbers = numbers_from(rest);
+        if (numbers.size() == 1) numbers = {numbers[0], numbers[0], numbers[0]};
+        if (numbers.size() < 3) return note("material colours that are not numbers are left out");
+        numbers.resize(3);
+        to = numbers;
+    }
+
+    /// Options precede the name, which may contain blanks.
+    void texture(std::string_view rest, MtlMaterial& to) {
+        while (rest.starts_with('-')) {
+            std::string_view after = rest;
+            const std::string option = lower(word_from(after));
+            const bool takes_numbers = option == "-o" || option == "-s" || option == "-t" || option == "-mm";
+            const bool takes_word = option == "-clamp" || option == "-blendu" || option == "-blendv" ||
+                                    option == "-cc" || option == "-texres" || option == "-boost" ||
+                                    option == "-bm" || option == "-imfchan" || option == "-type";
+            if (!takes_numbers && !takes_word) break;
+            if (takes_word) {
+                const std::string value = lower(word_from(after));
+                if (option == "-clamp") to.clamps = value == "on";
+            } else {
+                for (int i = 0; i < 3; ++i) {
+                    std::string_view next = after;
+                    const std::string_view word = word_from(next);
+                    if (next.empty() || numbers_from(word).empty()) break;
+                    after = next;
+                }
+                note("the offset and scale of textures are left out");
+            }
+            rest = after;
+        }
+        to.texture = rest;
+    }
+
+    MaterialLibrary library_;
+    MaterialNumbers numbers_;
+};
+
+}  // namespace
+
+MaterialLibrary read_mtl(std::string_view text) { return Reader().read(text); }
+
+}  // namespace mesh_io

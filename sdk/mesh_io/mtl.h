@@ -1,0 +1,28 @@
+// The materials of an MTL file.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace mesh_io {
+
+/// A material in the terms of the file.
+struct MtlMaterial {
+    std::string name;                // with a possible comment
+    std::vector<double> ka, kd, ks;  // three numbers; empty if absent
+    double shininess = 0;            // Ns
+    int illumination = 2;            // illum
+    std::string texture;             // map_Kd, as the file names it
+    bool clamps = false;             // the texture is clamped at its edges
+};
+
+struct MaterialLibrary {
+    std::vector<MtlMaterial> materials;  // each once, with its last description
+    std::vector<std::string> notes;      // what is left out: whole sentences without a full stop
+};
+
+/// Never refuses a statement; leaves it out. Throws BadFile for UTF-16.
+MaterialLibrary read_mtl(std::string_view text);
+
+}  // namespace mesh_io
