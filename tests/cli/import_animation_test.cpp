@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/gltf_file.h"
 
 namespace fs = std::filesystem;
 
@@ -26,21 +26,20 @@ CommandResult candela(const fs::path& folder, const std::vector<std::string>& wo
 }
 
 /// A glTF file: boxes of 1 x 1 x 1 m around the origins of their nodes, each with a material of its own.
-class File {
+class File : public GltfFile {
   public:
-    Json json = Json::parse(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": []}], "nodes": [],
-        "meshes": [], "materials": []})");
-
-    File() {
+    File()
+        : GltfFile({{"scenes", {{{"nodes", Json::array()}}}},
+                    {"nodes", Json::array()},
+                    {"meshes", Json::array()},
+                    {"materials", Json::array()}}) {
         std::vector<float> corners;
         for (std::size_t i = 0; i < 8; ++i)
             for (std::size_t k = 0; k < 3; ++k) corners.push_back((i >> k & 1) != 0 ? 0.5f : -0.5f);
         position_ = floats("VEC3", corners);
-        const std::vector<float> indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
-                                            2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
-        std::string bytes;
-        for (const float index : indices) bytes += static_cast<char>(index);
-        indices_ = accessor(bytes, 5121, "SCALAR", indices.size());
+        const std::vector<std::uint8_t> indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                                   2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+        indices_ = accessor(k_ubyte, "SCALAR", indices.size(), indices);
     }
 
     /// Adds a node and returns it.
@@ -74,31 +73,7 @@ class File {
             {{"sampler", animation["samplers"].size() - 1}, {"target", {{"node", node}, {"path", path}}}});
     }
 
-    void write(const fs::path& folder, const std::string& name) {
-        json["buffers"] = {{{"byteLength", bytes_.size()}, {"uri", name + ".bin"}}};
-        write_file(folder / (name + ".bin"), bytes_);
-        write_file(folder / (name + ".gltf"), json.dump());
-    }
-
   private:
-    std::size_t floats(const char* type, const std::vector<float>& values) {
-        const std::size_t each = *type == 'V' ? static_cast<std::size_t>(type[3] - '0') : 1;
-        std::string bytes(values.size() * sizeof(float), '\0');
-        std::memcpy(bytes.data(), values.data(), bytes.size());
-        return accessor(bytes, 5126, type, values.size() / each);
-    }
-    std::size_t accessor(const std::string& bytes, int component_type, const char* type, std::size_t count) {
-        json["bufferViews"].push_back(
-            {{"buffer", 0}, {"byteOffset", bytes_.size()}, {"byteLength", bytes.size()}});
-        bytes_ += bytes;
-        json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
-                                     {"componentType", component_type},
-                                     {"count", count},
-                                     {"type", type}});
-        return json["accessors"].size() - 1;
-    }
-
-    std::string bytes_;
     std::size_t position_ = 0, indices_ = 0;
 };
 

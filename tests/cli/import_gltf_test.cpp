@@ -3,13 +3,13 @@
 #include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cstdint>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "support/command.h"
+#include "support/gltf_file.h"
 
 namespace fs = std::filesystem;
 
@@ -70,13 +70,11 @@ std::string png(int width, int height, const std::vector<Pixel>& pixels) {
 }
 
 /// A GLB file: a square from (-1, -1) to (1, 1) that faces +z, or its replacement.
-class File {
+class File : public GltfFile {
   public:
-    Json json =
-        Json::parse(R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
-        "meshes": [{"primitives": [{"attributes": {}, "material": 0}]}], "materials": [{"doubleSided": true}]})");
-
-    explicit File(bool has_normals = true) {
+    explicit File(bool has_normals = true)
+        : GltfFile(Json::parse(R"({"scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {}, "material": 0}]}], "materials": [{"doubleSided": true}]})")) {
         primitive()["attributes"]["POSITION"] = floats("VEC3", {-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});
         primitive()["attributes"]["TEXCOORD_0"] = floats("VEC2", {0, 1, 1, 1, 1, 0, 0, 0});
         if (has_normals)
@@ -88,56 +86,13 @@ class File {
     Json& material() { return json["materials"][0]; }
     Json& pbr() { return material()["pbrMetallicRoughness"]; }
 
-    std::size_t floats(const char* type, const std::vector<float>& values) {
-        const std::size_t each = *type == 'V' ? static_cast<std::size_t>(type[3] - '0') : 1;
-        return accessor(5126, type, values.size() / each, values);
-    }
-    std::size_t integers(const std::vector<std::uint32_t>& values) {
-        return accessor(5125, "SCALAR", values.size(), values);
-    }
     /// A texture of its own.
     Json texture(const std::string& picture) {
-        const std::size_t at = add(picture.data(), picture.size());
+        const std::size_t at = view(picture.data(), picture.size());
         json["images"].push_back({{"bufferView", at}, {"mimeType", "image/png"}});
         json["textures"].push_back({{"source", json["images"].size() - 1}});
         return {{"index", json["textures"].size() - 1}};
     }
-
-    std::string glb() {
-        json["buffers"] = {{{"byteLength", bytes_.size()}}};
-        std::string text = json.dump();
-        text.resize((text.size() + 3) / 4 * 4, ' ');
-        std::string data = bytes_;
-        data.resize((data.size() + 3) / 4 * 4);
-        std::string result = "glTF";
-        const auto word = [&](std::size_t value) {
-            for (int shift = 0; shift < 32; shift += 8) result += static_cast<char>(value >> shift & 255);
-        };
-        for (const std::size_t value : {std::size_t{2}, 12 + 8 + text.size() + 8 + data.size(), text.size()})
-            word(value);
-        result += "JSON" + text;
-        word(data.size());
-        return result + std::string("BIN\0", 4) + data;
-    }
-
-  private:
-    std::size_t add(const void* from, std::size_t size) {
-        const std::size_t at = (bytes_.size() + 3) / 4 * 4;
-        bytes_.resize(at + size);
-        std::memcpy(bytes_.data() + at, from, size);
-        json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", at}, {"byteLength", size}});
-        return json["bufferViews"].size() - 1;
-    }
-    template <class T>
-    std::size_t accessor(int component_type, const char* type, std::size_t count,
-                         const std::vector<T>& values) {
-        const std::size_t view = add(values.data(), values.size() * sizeof(T));
-        json["accessors"].push_back(
-            {{"bufferView", view}, {"componentType", component_type}, {"count", count}, {"type", type}});
-        return json["accessors"].size() - 1;
-    }
-
-    std::string bytes_;
 };
 
 struct Imported {

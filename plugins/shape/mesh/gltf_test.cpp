@@ -8,13 +8,13 @@
 #include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "support/command.h"
+#include "support/gltf_file.h"
 #include "support/plugins.h"
 
 using candela::Mesh;
@@ -25,56 +25,14 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr int k_float = 5126, k_ubyte = 5121, k_uint = 5125;
+constexpr int k_float = GltfFile::k_float, k_ubyte = GltfFile::k_ubyte, k_uint = GltfFile::k_uint;
 
-/// A GLB file with one buffer.
-class File {
+class File : public GltfFile {
   public:
-    Json json = Json::parse(
-        R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}], "meshes": []})");
+    File()
+        : GltfFile({{"scenes", {{{"nodes", {0}}}}}, {"nodes", {{{"mesh", 0}}}}, {"meshes", Json::array()}}) {}
 
-    template <class T>
-    std::size_t view(const std::vector<T>& values) {
-        const std::size_t at = (bytes_.size() + 3) / 4 * 4;
-        bytes_.resize(at + values.size() * sizeof(T));
-        if (!values.empty()) std::memcpy(bytes_.data() + at, values.data(), values.size() * sizeof(T));
-        json["bufferViews"].push_back(
-            {{"buffer", 0}, {"byteOffset", at}, {"byteLength", values.size() * sizeof(T)}});
-        return json["bufferViews"].size() - 1;
-    }
-    template <class T>
-    std::size_t accessor(int component_type, const char* type, std::size_t count,
-                         const std::vector<T>& values) {
-        const std::size_t of = view(values);
-        return accessor(component_type, type, count, {{"bufferView", of}});
-    }
-    std::size_t accessor(int component_type, const char* type, std::size_t count, Json more) {
-        more.update({{"componentType", component_type}, {"type", type}, {"count", count}});
-        json["accessors"].push_back(std::move(more));
-        return json["accessors"].size() - 1;
-    }
     void mesh(Json primitive) { json["meshes"].push_back({{"primitives", {std::move(primitive)}}}); }
-
-    std::string glb() {
-        json["buffers"] = {{{"byteLength", bytes_.size()}}};
-        std::string text = json.dump();
-        text.resize((text.size() + 3) / 4 * 4, ' ');
-        std::string data = bytes_;
-        data.resize((data.size() + 3) / 4 * 4);
-        std::string result = "glTF";
-        const auto word = [&](std::size_t value) {
-            for (int shift = 0; shift < 32; shift += 8) result += static_cast<char>(value >> shift & 255);
-        };
-        for (const std::size_t value : {std::size_t{2}, 12 + 8 + text.size() + 8 + data.size(), text.size()})
-            word(value);
-        result += "JSON" + text;
-        word(data.size());
-        result += std::string("BIN\0", 4) + data;
-        return result;
-    }
-
-  private:
-    std::string bytes_;
 };
 
 const std::vector<float> k_tetrahedron = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
