@@ -195,10 +195,11 @@ Header read_header(std::string_view bytes, std::size_t file_size) {
 }
 
 std::vector<std::string> texture_files(const Header& header) {
-    constexpr std::string_view k_key = "TextureFile ";
     std::vector<std::string> names;
-    for (const std::string& comment : header.comments)
-        if (comment.starts_with(k_key)) names.push_back(comment.substr(k_key.size()));
+    for (const std::string& comment : header.comments) {
+        TextScanner scanner(comment);
+        if (scanner.word() == "TextureFile") names.emplace_back(scanner.rest_of_line());
+    }
     return names;
 }
 
