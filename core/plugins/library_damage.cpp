@@ -1,5 +1,7 @@
 module;
 
+#include "candela/file_descriptor.h"
+
 #include <dlfcn.h>
 #include <elf.h>
 #include <fcntl.h>
@@ -33,7 +35,7 @@ class File {
     explicit File(const std::filesystem::path& path)
         : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
         struct stat status{};
-        if (descriptor_ < 0 || ::fstat(descriptor_, &status) != 0) {
+        if (!descriptor_.is_open() || ::fstat(descriptor_.number(), &status) != 0) {
             // An error that may be temporary says nothing about the library.
             if (errno != EACCES && errno != ENOENT && errno != ELOOP)
                 throw Error(ErrorCategory::failure,
@@ -45,11 +47,6 @@ class File {
             size_ = static_cast<std::uint64_t>(status.st_size);
         }
     }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-    ~File() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
 
     const std::string& problem() const { return problem_; }
     std::uint64_t size() const { return size_; }
@@ -58,12 +55,12 @@ class File {
     }
     /// Returns false if the file ends before.
     bool read(std::uint64_t offset, void* to, std::size_t count) const {
-        return holds(offset, count) &&
-               ::pread(descriptor_, to, count, static_cast<off_t>(offset)) == static_cast<ssize_t>(count);
+        return holds(offset, count) && ::pread(descriptor_.number(), to, count, static_cast<off_t>(offset)) ==
+                                           static_cast<ssize_t>(count);
     }
 
   private:
-    int descriptor_;
+    FileDescriptor descriptor_;
     std::string problem_;
     std::uint64_t size_ = 0;
 };

@@ -1,5 +1,7 @@
 module;
 
+#include "candela/file_descriptor.h"
+
 #include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -16,6 +18,7 @@ module;
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 module candela.util;
@@ -24,30 +27,12 @@ namespace candela {
 
 namespace {
 
-/// An open folder, through which its contents are accessed.
-class OpenFolder {
-  public:
-    explicit OpenFolder(int descriptor) : descriptor_(descriptor) {}
-    OpenFolder(const OpenFolder&) = delete;
-    OpenFolder& operator=(const OpenFolder&) = delete;
-    ~OpenFolder() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-
-    int number() const { return descriptor_; }
-    /// Enters a folder in it, creating it if necessary. Returns false, with errno, on failure.
-    bool enter(const std::filesystem::path& name) {
-        if (::mkdirat(descriptor_, name.c_str(), 0777) != 0 && errno != EEXIST) return false;
-        const int inner = ::openat(descriptor_, name.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-        if (inner < 0) return false;
-        ::close(descriptor_);
-        descriptor_ = inner;
-        return true;
-    }
-
-  private:
-    int descriptor_;
-};
+/// Opens a folder in another one, creating it if necessary. Not open, with errno, on failure.
+FileDescriptor open_inside(const FileDescriptor& folder, const std::filesystem::path& name) {
+    if (::mkdirat(folder.number(), name.c_str(), 0777) != 0 && errno != EEXIST) return {};
+    return FileDescriptor(
+        ::openat(folder.number(), name.c_str(), O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+}
 
 [[noreturn]] void fail_to_make(const std::filesystem::path& folder, const char* reason) {
     throw Error(ErrorCategory::failure,
@@ -60,12 +45,16 @@ void make_owned_folder(const std::filesystem::path& parent, const std::filesyste
     std::error_code problem;
     std::filesystem::create_directories(parent, problem);
     if (problem) fail_to_make(parent, problem.message().c_str());
-    OpenFolder folder(::open(parent.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
-    if (folder.number() < 0) fail_to_make(parent, std::strerror(errno));
+    FileDescriptor folder(::open(parent.c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC));
+    if (!folder.is_open()) fail_to_make(parent, std::strerror(errno));
     std::filesystem::path shown = parent == "." ? "" : parent;
     for (const std::filesystem::path& name : owned) {
         shown /= name;
-        if (folder.enter(name)) continue;
+        FileDescriptor inner = open_inside(folder, name);
+        if (inner.is_open()) {
+            folder = std::move(inner);
+            continue;
+        }
         // The kernel's error for a link depends on the link's target.
         const bool is_other = errno == ENOTDIR || errno == ELOOP;
         fail_to_make(shown, is_other ? "a link or a file is in its place; remove it" : std::strerror(errno));

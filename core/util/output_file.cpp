@@ -1,5 +1,7 @@
 module;
 
+#include "candela/file_descriptor.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -82,23 +84,11 @@ bool name_file(int descriptor, const char* name) {
     return ::linkat(AT_FDCWD, self.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
 }
 
-/// Keeps a nameless file while it is closed, because errors on closing it must be known before it gets its
-/// name.
-class Handle {
-  public:
-    explicit Handle(int of)
-        : descriptor_(::open(fmt::format("/proc/self/fd/{}", of).c_str(), O_PATH | O_CLOEXEC)) {}
-    Handle(const Handle&) = delete;
-    Handle& operator=(const Handle&) = delete;
-    ~Handle() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    bool is_open() const { return descriptor_ >= 0; }
-    bool name(const char* name) const { return name_file(descriptor_, name); }
-
-  private:
-    int descriptor_;
-};
+/// Another descriptor of a nameless file, which keeps it while it is closed, because errors on closing it
+/// must be known before it gets its name. Not open, with errno, on failure.
+FileDescriptor handle_of(int descriptor) {
+    return FileDescriptor(::open(fmt::format("/proc/self/fd/{}", descriptor).c_str(), O_PATH | O_CLOEXEC));
+}
 
 }  // namespace
 
@@ -200,11 +190,11 @@ bool OutputFile::give_permissions() {
 
 void OutputFile::name_beside() {
     if (beside_ != nullptr) return close();
-    const Handle handle(descriptor_);
+    const FileDescriptor handle = handle_of(descriptor_);
     if (!handle.is_open()) fail(shown_, "cannot be moved into place");
     close();
     beside_ = std::make_unique<NameBeside>(directory_of(target_));
-    if (!handle.name(beside_->c_str())) fail(shown_, "cannot be moved into place");
+    if (!name_file(handle.number(), beside_->c_str())) fail(shown_, "cannot be moved into place");
 }
 
 void OutputFile::complete() {
@@ -219,14 +209,14 @@ void OutputFile::put_in_place(Durability durability) {
     const bool is_there = give_permissions();
     if (durability == Durability::durable) sync();
     if (beside_ == nullptr && (!is_there || existing_ == Existing::kept)) {
-        const Handle handle(descriptor_);
+        const FileDescriptor handle = handle_of(descriptor_);
         if (!handle.is_open()) fail(shown_, "cannot be moved into place");
         close();
-        if (handle.name(target_.c_str())) return;
+        if (name_file(handle.number(), target_.c_str())) return;
         if (errno != EEXIST) fail(shown_, "cannot be moved into place");
         if (existing_ == Existing::kept) fail_as_existing();
         beside_ = std::make_unique<NameBeside>(directory_of(target_));
-        if (!handle.name(beside_->c_str())) fail(shown_, "cannot be moved into place");
+        if (!name_file(handle.number(), beside_->c_str())) fail(shown_, "cannot be moved into place");
     } else {
         // Only an unused name can be given: if killed between this and the renaming, the process leaves a
         // (complete) file next to the old one.

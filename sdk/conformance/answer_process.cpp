@@ -17,6 +17,7 @@
 #include <cstring>
 #include <span>
 
+#include "candela/file_descriptor.h"
 #include "sandbox.h"
 
 namespace {
@@ -66,17 +67,14 @@ class SharedWords {
   public:
     explicit SharedWords(std::size_t count)
         : bytes_(count * sizeof(std::uint32_t)), file_(::memfd_create("candela-answer", MFD_CLOEXEC)) {
-        if (file_ < 0 || ::ftruncate(file_, static_cast<off_t>(bytes_)) != 0) fail();
-        at_ = ::mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
+        if (!file_.is_open() || ::ftruncate(file_.number(), static_cast<off_t>(bytes_)) != 0) fail();
+        at_ = ::mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, file_.number(), 0);
         if (at_ == MAP_FAILED) fail();
     }
     SharedWords(const SharedWords&) = delete;
     SharedWords& operator=(const SharedWords&) = delete;
-    ~SharedWords() {
-        ::munmap(at_, bytes_);
-        ::close(file_);
-    }
-    int file() const { return file_; }
+    ~SharedWords() { ::munmap(at_, bytes_); }
+    int file() const { return file_.number(); }
     std::span<std::uint32_t> all() const {
         return {static_cast<std::uint32_t*>(at_), bytes_ / sizeof(std::uint32_t)};
     }
@@ -84,7 +82,7 @@ class SharedWords {
   private:
     static void fail() { FAIL("out of memory: " << std::strerror(errno)); }
     std::size_t bytes_;
-    int file_;
+    candela::FileDescriptor file_;
     void* at_ = nullptr;
 };
 

@@ -13,6 +13,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "candela/file_descriptor.h"
 #include "sandbox/guarded_child.h"
 
 namespace {
@@ -91,19 +92,18 @@ Outcome run_in_child(const std::string& group, double seconds, const std::functi
 }
 
 Outcome run_here(const std::string& group, const std::function<void(Findings&)>& work) {
-    const int report = ::memfd_create("candela-conformance", MFD_CLOEXEC);
-    if (report < 0) throw std::runtime_error(std::strerror(errno));
+    const candela::FileDescriptor report(::memfd_create("candela-conformance", MFD_CLOEXEC));
+    if (!report.is_open()) throw std::runtime_error(std::strerror(errno));
     const auto begin = std::chrono::steady_clock::now();
-    Findings findings(report);
+    Findings findings(report.number());
     work(findings);
     findings.add("done", "");
     Outcome outcome{group, Verdict::passed, {}, seconds_since(begin)};
     std::string text;
-    ::lseek(report, 0, SEEK_SET);
+    ::lseek(report.number(), 0, SEEK_SET);
     char buffer[4096];
-    for (ssize_t count = 0; (count = ::read(report, buffer, sizeof buffer)) > 0;)
+    for (ssize_t count = 0; (count = ::read(report.number(), buffer, sizeof buffer)) > 0;)
         text.append(buffer, static_cast<std::size_t>(count));
-    ::close(report);
     judge(outcome, text, 0);
     return outcome;
 }

@@ -19,6 +19,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "candela/file_descriptor.h"
 #include "sandbox/process_tree.h"
 #include "sandbox/temporary_folder.h"
 
@@ -37,23 +38,13 @@ struct Verdict {
 };
 
 struct Pipe {
-    int source = -1, sink = -1;
+    candela::FileDescriptor source, sink;
 
     Pipe() {
         std::array<int, 2> ends{};
         if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error(std::strerror(errno));
-        source = ends[0];
-        sink = ends[1];
-    }
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    ~Pipe() {
-        close(source);
-        close(sink);
-    }
-    static void close(int& end) {
-        if (end >= 0) ::close(end);
-        end = -1;
+        source = candela::FileDescriptor(ends[0]);
+        sink = candela::FileDescriptor(ends[1]);
     }
 };
 
@@ -94,8 +85,8 @@ void give_temporary_files(std::optional<TemporaryFolder>& folder) {
     inherit_orphans();
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != parent) ::_exit(1);
-    Pipe::close(report.source);
-    Pipe::close(verdict.source);
+    report.source.close();
+    verdict.source.close();
     const pid_t guardian = ::getpid();
     std::optional<TemporaryFolder> temporary;
     give_temporary_files(temporary);
@@ -107,8 +98,8 @@ void give_temporary_files(std::optional<TemporaryFolder>& folder) {
         ::sigprocmask(SIG_SETMASK, &usual, nullptr);
         ::prctl(PR_SET_PDEATHSIG, SIGKILL);
         if (::getppid() != guardian) ::_exit(1);
-        Pipe::close(verdict.sink);
-        be_the_child(report.sink, work);
+        verdict.sink.close();
+        be_the_child(report.sink.number(), work);
     }
     for (;;) {
         int signal = 0;
@@ -124,7 +115,7 @@ void give_temporary_files(std::optional<TemporaryFolder>& folder) {
         found.leaves_processes = ended == 0;
         end_descendants();
         temporary.reset();
-        if (has_ended && ::write(verdict.sink, &found, sizeof found) != sizeof found) ::_exit(1);
+        if (has_ended && ::write(verdict.sink.number(), &found, sizeof found) != sizeof found) ::_exit(1);
         ::_exit(0);
     }
 }
@@ -156,17 +147,17 @@ GuardedEnd run_guarded(double seconds, const std::function<void(int)>& work) {
     const pid_t guardian = ::fork();
     if (guardian < 0) throw std::runtime_error(std::strerror(errno));
     if (guardian == 0) be_the_guardian(parent, report, verdict, work);
-    Pipe::close(report.sink);
-    Pipe::close(verdict.sink);
+    report.sink.close();
+    verdict.sink.close();
     GuardedEnd result;
     // The guardian also holds the other end, which is closed once the child and everything it started have
     // ended.
-    result.is_late = !read_all(report.source, seconds, result.report);
+    result.is_late = !read_all(report.source.number(), seconds, result.report);
     if (result.is_late) ::kill(guardian, SIGTERM);
     while (::waitpid(guardian, nullptr, 0) < 0 && errno == EINTR) {
     }
     Verdict found{.status = 1 << 8, .leaves_processes = false};  // exit code 1 if the guardian has failed
-    if (!result.is_late && ::read(verdict.source, &found, sizeof found) != sizeof found)
+    if (!result.is_late && ::read(verdict.source.number(), &found, sizeof found) != sizeof found)
         found = {.status = 1 << 8, .leaves_processes = false};
     result.status = found.status;
     result.leaves_processes = found.leaves_processes;

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <ctime>
 
+#include "candela/file_descriptor.h"
 #include "sandbox/directory_entries.h"
 
 namespace {
@@ -50,12 +51,12 @@ class ProcPath {
 /// Calls visit(pid) for each process that a thread has started.
 template <class Visit>
 void for_each_child_of_thread(pid_t process, const char* thread, const Visit& visit) noexcept {
-    const int file = ::open(ProcPath().add(process).add("/task/").add(thread).add("/children").c_str(),
-                            O_RDONLY | O_CLOEXEC);
-    if (file < 0) return;
+    const candela::FileDescriptor file(::open(
+        ProcPath().add(process).add("/task/").add(thread).add("/children").c_str(), O_RDONLY | O_CLOEXEC));
+    if (!file.is_open()) return;
     pid_t number = 0;
     char c = 0;
-    while (::read(file, &c, 1) == 1) {
+    while (::read(file.number(), &c, 1) == 1) {
         if (c >= '0' && c <= '9') {
             number = 10 * number + (c - '0');
         } else if (number > 0) {
@@ -63,16 +64,15 @@ void for_each_child_of_thread(pid_t process, const char* thread, const Visit& vi
             number = 0;
         }
     }
-    ::close(file);
 }
 
 template <class Visit>
 void for_each_child(pid_t process, const Visit& visit) noexcept {
-    const int threads =
-        ::open(ProcPath().add(process).add("/task").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (threads < 0) return;
-    for_each_entry(threads, [&](const char* thread) { for_each_child_of_thread(process, thread, visit); });
-    ::close(threads);
+    const candela::FileDescriptor threads(
+        ::open(ProcPath().add(process).add("/task").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (!threads.is_open()) return;
+    for_each_entry(threads.number(),
+                   [&](const char* thread) { for_each_child_of_thread(process, thread, visit); });
 }
 
 /// `levels`: the recursion limit, to spare a signal handler's stack.

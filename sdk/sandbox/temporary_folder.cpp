@@ -18,6 +18,7 @@
 #include <string>
 #include <system_error>
 
+#include "candela/file_descriptor.h"
 #include "sandbox/directory_entries.h"
 
 namespace fs = std::filesystem;
@@ -35,12 +36,11 @@ constinit std::array<Entry, 8> folders{};
 
 void remove_tree(int parent, const char* name, int levels) noexcept {
     if (::unlinkat(parent, name, 0) == 0 || (errno != EISDIR && errno != EPERM)) return;
-    const int folder = ::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (folder >= 0) {
-        if (levels > 0)
-            for_each_entry(folder, [&](const char* entry) { remove_tree(folder, entry, levels - 1); });
-        ::close(folder);
-    }
+    candela::FileDescriptor folder(::openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    if (folder.is_open() && levels > 0)
+        for_each_entry(folder.number(),
+                       [&](const char* entry) { remove_tree(folder.number(), entry, levels - 1); });
+    folder.close();
     ::unlinkat(parent, name, AT_REMOVEDIR);
 }
 
@@ -63,14 +63,10 @@ bool make_private_folder(const char* path) noexcept {
     struct stat status{};
     if (::lstat(path, &status) == 0 && (status.st_mode & k_private) == k_private) return true;
     // By its descriptor, because the path may lead elsewhere by now.
-    const int folder = ::open(path, O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (folder < 0) return false;
-    const std::string self = fmt::format("/proc/self/fd/{}", folder);
-    const bool is_private = ::chmod(self.c_str(), k_private) == 0;
-    const int problem = errno;
-    ::close(folder);
-    errno = problem;
-    return is_private;
+    const candela::FileDescriptor folder(::open(path, O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    if (!folder.is_open()) return false;
+    const std::string self = fmt::format("/proc/self/fd/{}", folder.number());
+    return ::chmod(self.c_str(), k_private) == 0;
 }
 
 std::string random_name() {

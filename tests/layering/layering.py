@@ -16,8 +16,9 @@ SOURCES = {".cpp", ".cppm", ".h", ".kernel"}
 # The parts that are compiled into plugins, as opposed to the SDK's programs.
 SDK_OF_PLUGINS = ("sdk/include/", "sdk/mesh_io/", "sdk/target/", "sdk/templates/")
 HEADERS, MODULE = "core/include/candela/", "core/api/api.cppm"
-# Headers that no module exports: macros, kernels, templates, headers that only tests of plugins include, and those about memory only.
-HEADERS_ALONE = {"plugin/abi.h", "plugin/export.h", "plugin/instances.h", "large_pages.h"}
+# Headers that no module exports: macros, kernels, templates, headers that only tests of plugins include, and those about
+# memory or files only.
+HEADERS_ALONE = {"plugin/abi.h", "plugin/export.h", "plugin/instances.h", "file_descriptor.h", "large_pages.h"}
 # A declaration at the beginning of a line, where clang-format puts the members of a namespace: a type, an alias, a function,
 # a constant.
 DECLARATION = re.compile(

@@ -16,6 +16,7 @@
 #include <system_error>
 #include <vector>
 
+#include "candela/file_descriptor.h"
 #include "cli/completion.h"
 #include "cli/manual.h"
 #include "cli/usual_options.h"
@@ -176,8 +177,9 @@ const std::string& contents_of(const std::string& stream) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' cannot be read: {}", stream, std::strerror(errno)));
     };
-    const int descriptor = stream == "-" ? STDIN_FILENO : ::open(stream.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) fail();
+    const candela::FileDescriptor opened(stream == "-" ? -1 : ::open(stream.c_str(), O_RDONLY | O_CLOEXEC));
+    if (stream != "-" && !opened.is_open()) fail();
+    const int descriptor = stream == "-" ? STDIN_FILENO : opened.number();
     std::vector<char> part(65536);  // on the stack it would cost pages even without a stream
     while (text->second.size() <= candela::ReadingLimits::k_most_bytes) {
         const ssize_t count = ::read(descriptor, part.data(), part.size());
@@ -186,7 +188,6 @@ const std::string& contents_of(const std::string& stream) {
         if (count == 0) break;
         text->second.append(part.data(), static_cast<std::size_t>(count));
     }
-    if (descriptor != STDIN_FILENO) ::close(descriptor);
     return text->second;
 }
 

@@ -15,6 +15,8 @@
 #include <system_error>
 #include <utility>
 
+#include "candela/file_descriptor.h"
+
 import candela.api;
 import candela.plugins;
 import candela.util;
@@ -29,29 +31,23 @@ namespace {
 class MemoryFile {
   public:
     explicit MemoryFile(const std::string& content) : descriptor_(::memfd_create("picture", MFD_CLOEXEC)) {
-        if (descriptor_ < 0) fail();
+        if (!descriptor_.is_open()) fail();
         for (std::size_t at = 0; at < content.size();) {
-            const ::ssize_t some = ::write(descriptor_, content.data() + at, content.size() - at);
+            const ::ssize_t some = ::write(descriptor_.number(), content.data() + at, content.size() - at);
             if (some < 0 && errno == EINTR) continue;
-            if (some <= 0) {
-                ::close(descriptor_);
-                fail();
-            }
+            if (some <= 0) fail();
             at += static_cast<std::size_t>(some);
         }
     }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-    ~MemoryFile() { ::close(descriptor_); }
 
-    fs::path path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+    fs::path path() const { return fmt::format("/proc/self/fd/{}", descriptor_.number()); }
 
   private:
     [[noreturn]] static void fail() {
         throw candela::Error(candela::ErrorCategory::failure, std::generic_category().message(errno));
     }
 
-    int descriptor_;
+    candela::FileDescriptor descriptor_;
 };
 
 /// The reason without the file's name, because the user knows it by another.

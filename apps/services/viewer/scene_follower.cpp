@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "aov/terms.h"
+#include "candela/file_descriptor.h"
 #include "console/reporting.h"
 #include "console/stopwatch.h"
 #include "json/json.h"
@@ -165,15 +166,13 @@ fs::path page_leading_to(const std::string& address, const fs::path& folder) {
         "<a href=\"{0}\">candela view</a>\n",
         address);
     constexpr mode_t k_for_its_owner = 0600;
-    const int descriptor =
-        ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, k_for_its_owner);
-    const bool is_written =
-        descriptor >= 0 && ::write(descriptor, page.data(), page.size()) == static_cast<ssize_t>(page.size());
-    const int problem = errno;
-    if (descriptor >= 0) ::close(descriptor);
+    const candela::FileDescriptor descriptor(
+        ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, k_for_its_owner));
+    const bool is_written = descriptor.is_open() && ::write(descriptor.number(), page.data(), page.size()) ==
+                                                        static_cast<ssize_t>(page.size());
     if (!is_written) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' cannot be written: {}", file.string(), std::strerror(problem)));
+                    fmt::format("'{}' cannot be written: {}", file.string(), std::strerror(errno)));
     }
     return file;
 }

@@ -35,8 +35,6 @@ int valid(int descriptor) {
 
 }  // namespace
 
-Descriptor::~Descriptor() { ::close(number_); }
-
 Watcher::Watcher()
     : events_(valid(::inotify_init1(IN_NONBLOCK | IN_CLOEXEC))),
       stop_(valid(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC))) {}

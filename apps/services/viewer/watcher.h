@@ -8,21 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "candela/file_descriptor.h"
+
 namespace view {
-
-/// RAII owner of a file descriptor.
-class Descriptor {
-  public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor();
-
-    int number() const { return number_; }
-
-  private:
-    int number_;
-};
 
 /// Watches folders, because editors replace files instead of writing to them. stop() may be called on any
 /// thread, everything else only on one.
@@ -47,7 +35,7 @@ class Watcher {
     /// Reads the pending events; returns whether something watched was among them.
     bool read_events();
 
-    Descriptor events_, stop_;
+    candela::FileDescriptor events_, stop_;
     std::map<int, std::set<std::string>> names_;  // by watch; "" is every name
 };
 

@@ -1,5 +1,7 @@
 module;
 
+#include "candela/file_descriptor.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
@@ -27,35 +29,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Descriptor {
-  public:
-    explicit Descriptor(const fs::path& file)
-        // Opening a file that is replaced after the check, for instance by a pipe, must not block.
-        : number_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {}
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
+/// The whole file, or slightly more than `most` if it is larger. Nothing, with errno, on failure.
+std::optional<std::string> read_all(const FileDescriptor& file, std::uintmax_t most) {
+    std::string text;
+    std::array<char, 65536> part;
+    for (;;) {
+        const ssize_t count = ::read(file.number(), part.data(), part.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return std::nullopt;
+        if (count == 0) return text;
+        text.append(part.data(), static_cast<std::size_t>(count));
+        if (text.size() > most) return text;
     }
-    bool is_open() const { return number_ >= 0; }
-
-    /// The whole file, or slightly more than `most` if it is larger. Nothing, with errno, on failure.
-    std::optional<std::string> read(std::uintmax_t most) const {
-        std::string text;
-        std::array<char, 65536> part;
-        for (;;) {
-            const ssize_t count = ::read(number_, part.data(), part.size());
-            if (count < 0 && errno == EINTR) continue;
-            if (count < 0) return std::nullopt;
-            if (count == 0) return text;
-            text.append(part.data(), static_cast<std::size_t>(count));
-            if (text.size() > most) return text;
-        }
-    }
-
-  private:
-    int number_;
-};
+}
 
 bool is_utf16(std::string_view text) {
     return text.starts_with(std::string_view("\xff\xfe", 2)) ||
@@ -104,10 +90,11 @@ std::optional<std::string> text_of_file(const fs::path& file, const std::string&
         return fail("this is not a regular file (a pipe or a device?)");
     const std::uintmax_t size = fs::file_size(file, problem);
     if (!problem && size > bytes_left) return fail_at_begin(too_large(fmt::to_string(size), bytes_left));
-    const Descriptor descriptor(file);
+    // Opening a file that is replaced after the check, for instance by a pipe, must not block.
+    const FileDescriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
     if (!descriptor.is_open())
         return fail_at_begin(fmt::format("the file cannot be opened: {}", std::strerror(errno)));
-    auto text = descriptor.read(bytes_left);
+    auto text = read_all(descriptor, bytes_left);
     if (!text) return fail_at_begin(fmt::format("the file cannot be read: {}", std::strerror(errno)));
     return text_of_bytes(std::move(*text), shown_name, bytes_left, diagnostics);
 }

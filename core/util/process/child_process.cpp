@@ -1,5 +1,7 @@
 module;
 
+#include "candela/file_descriptor.h"
+
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -45,36 +47,23 @@ using std::chrono::steady_clock;
 
 constexpr milliseconds k_longest_end{2000};
 
-/// Not inherited by other programs.
-class Descriptor {
-  public:
-    explicit Descriptor(int number) : number_(number) {
-        if (number < 0) {
-            throw Error(
-                ErrorCategory::failure,
+/// Throws Error, with the reason in errno, if the system did not give a descriptor.
+FileDescriptor valid(int number) {
+    if (number >= 0) return FileDescriptor(number);
+    throw Error(ErrorCategory::failure,
                 fmt::format("cannot create a connection to another program: {}", std::strerror(errno)));
-        }
-    }
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    Descriptor& operator=(Descriptor&&) = delete;
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    int number() const { return number_; }
+}
 
-  private:
-    int number_;
-};
-
-/// Writing to a socket does not raise SIGPIPE; writing to a pipe may.
-std::array<Descriptor, 2> connected() {
+/// Two connected ends, which other programs do not inherit. Writing to a socket does not raise SIGPIPE;
+/// writing to a pipe may.
+std::array<FileDescriptor, 2> connected() {
     std::array<int, 2> ends{-1, -1};
     static_cast<void>(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()));
-    return {Descriptor(ends[0]), Descriptor(ends[1])};
+    return {valid(ends[0]), valid(ends[1])};
 }
 
 /// The contents of a file in memory.
-std::string content_of(const Descriptor& file) {
+std::string content_of(const FileDescriptor& file) {
     struct stat status{};
     if (::fstat(file.number(), &status) != 0) return {};
     std::string text(static_cast<std::size_t>(status.st_size), '\0');
@@ -96,8 +85,8 @@ class ChildProcess {
     /// `output`: the descriptor that it prints to; -1: the one that its input comes from.
     explicit ChildProcess(const std::vector<std::string>& words, int output = -1)
         // In memory, so that a program that prints a lot does not wait for a reader.
-        : errors_(::memfd_create("errors", MFD_CLOEXEC)) {
-        std::array<Descriptor, 2> ends = connected();
+        : errors_(valid(::memfd_create("errors", MFD_CLOEXEC))) {
+        std::array<FileDescriptor, 2> ends = connected();
         const std::vector<std::string> arguments(words.begin() + 1, words.end());
         const std::lock_guard lock(starting());
         try {
@@ -113,7 +102,7 @@ class ChildProcess {
             throw Error(ErrorCategory::failure,
                         fmt::format("'{}' cannot be run: {}", words.front(), problem.code().message()));
         }
-        connection_.emplace(std::move(ends[0]));
+        connection_ = std::move(ends[0]);
     }
     ChildProcess(const ChildProcess&) = delete;
     ChildProcess& operator=(const ChildProcess&) = delete;
@@ -127,13 +116,13 @@ class ChildProcess {
         }
     }
 
-    const Descriptor& connection() const { return *connection_; }
+    const FileDescriptor& connection() const { return connection_; }
     std::string errors() const { return content_of(errors_); }
 
     /// Returns false if the program has ended.
     bool send(std::string_view text) const {
         while (!text.empty()) {
-            const ssize_t count = ::send(connection_->number(), text.data(), text.size(), MSG_NOSIGNAL);
+            const ssize_t count = ::send(connection_.number(), text.data(), text.size(), MSG_NOSIGNAL);
             if (count < 0 && errno == EINTR) continue;
             if (count <= 0) return false;
             text.remove_prefix(static_cast<std::size_t>(count));
@@ -160,8 +149,7 @@ class ChildProcess {
     /// May also have been waited for already.
     bool is_running() const { return ::waitpid(process_, nullptr, WNOHANG) == 0; }
 
-    Descriptor errors_;
-    std::optional<Descriptor> connection_;
+    FileDescriptor errors_, connection_;
     pid_t process_ = -1;
 };
 
@@ -220,7 +208,7 @@ std::string AnsweringProgram::errors() const { return implementation_->errors();
 class WaitingProgram::Implementation {
   public:
     explicit Implementation(const std::vector<std::string>& words)
-        : output_(::memfd_create("output", MFD_CLOEXEC)), program_(words, output_.number()) {}
+        : output_(valid(::memfd_create("output", MFD_CLOEXEC))), program_(words, output_.number()) {}
 
     std::optional<ProgramOutput> go_on(const Patience& patience) {
         if (!program_.send("\n")) return std::nullopt;
@@ -233,7 +221,7 @@ class WaitingProgram::Implementation {
     }
 
   private:
-    Descriptor output_;
+    FileDescriptor output_;
     ChildProcess program_;
 };
 

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "candela/file_descriptor.h"
 #include "candela/image_plugin.h"
 #include "input.h"
 
@@ -43,18 +44,15 @@ std::uint64_t file_size_limit() {
 class MemoryFile {
   public:
     MemoryFile() : descriptor_(::memfd_create("candela", MFD_CLOEXEC)) {
-        if (descriptor_ < 0) throw std::runtime_error("cannot create a file in memory");
+        if (!descriptor_.is_open()) throw std::runtime_error("cannot create a file in memory");
     }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
-    ~MemoryFile() { ::close(descriptor_); }
 
-    std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+    std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_.number()); }
 
     /// Writers ignore some errors, such as those when writing their last bytes.
     void require_whole(const OIIO::ImageSpec& spec) const {
         struct stat status{};
-        if (::fstat(descriptor_, &status) != 0)
+        if (::fstat(descriptor_.number(), &status) != 0)
             throw std::runtime_error("cannot read back the file in memory");
         // The part that did not fit may be a number at an even offset.
         if (static_cast<std::uint64_t>(status.st_size) + 1 >= file_size_limit())
@@ -72,7 +70,7 @@ class MemoryFile {
         std::vector<std::byte> buffer(1 << 16);
         off_t offset = 0;
         for (;;) {
-            const ssize_t count = ::pread(descriptor_, buffer.data(), buffer.size(), offset);
+            const ssize_t count = ::pread(descriptor_.number(), buffer.data(), buffer.size(), offset);
             if (count < 0) throw std::runtime_error("cannot read back the file in memory");
             if (count == 0) return;
             sink.write(std::span(buffer).first(static_cast<std::size_t>(count)));
@@ -81,7 +79,7 @@ class MemoryFile {
     }
 
   private:
-    int descriptor_;
+    candela::FileDescriptor descriptor_;
 };
 
 constexpr int k_tile = 256;          // pixels, for files that have tiles
