@@ -220,17 +220,6 @@ fs::path sdk_include_directory() {
     return {};
 }
 
-TemporaryDirectory::TemporaryDirectory() {
-    std::string name = (fs::temp_directory_path() / "candela-kernel-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) FAIL("cannot create a folder in " << fs::temp_directory_path());
-    path_ = name;
-}
-
-TemporaryDirectory::~TemporaryDirectory() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
-
 KernelInputs kernel_inputs(const Values& values) {
     KernelInputs inputs{.parameters = runtime(values), .tables = {}};
     const auto instance = instance_of(values);
@@ -246,7 +235,7 @@ CompiledKernel::CompiledKernel(const std::string& text, KernelAuthor author) {
     if (!compiler) SKIP("no C++ compiler is installed");
     const fs::path include = sdk_include_directory();
     if (include.empty()) SKIP("Candela's headers are not installed with the kit");
-    const fs::path file = directory_.path() / "kernel.cpp";
+    const fs::path file = folder_.path() / "kernel.cpp";
     std::ofstream(file) << source(text);
     // The process that loads it already contains what it needs from libraries.
     std::vector<std::string> words{compiler->string(), "-std=c++20", "-O1",   "-fPIC",

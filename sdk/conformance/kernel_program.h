@@ -9,25 +9,13 @@
 #include <vector>
 
 #include "batch.h"
+#include "sandbox/temporary_folder.h"
 
 /// The folder that contains candela/kernel/kernel.h, above the kit's own; empty if there is none.
 std::filesystem::path sdk_include_directory();
 
 /// "cel.kernel": the name of the plugin's kernel text in messages, which count its lines.
 std::string kernel_file_name();
-
-/// A folder that is removed with this object.
-class TemporaryDirectory {
-  public:
-    TemporaryDirectory();
-    TemporaryDirectory(const TemporaryDirectory&) = delete;
-    TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-    ~TemporaryDirectory();
-    const std::filesystem::path& path() const { return path_; }
-
-  private:
-    std::filesystem::path path_;
-};
 
 /// The message of the compiler, or the loader, about a text that cannot be run.
 class KernelRefused : public std::runtime_error {
@@ -43,14 +31,14 @@ class CompiledKernel {
   public:
     /// Throws KernelRefused if the text is not C++; skips the check if there is no compiler.
     CompiledKernel(const std::string& text, KernelAuthor author);
-    std::filesystem::path library() const { return directory_.path() / "kernel.so"; }
+    std::filesystem::path library() const { return folder_.path() / "kernel.so"; }
     /// The compiler's warnings about the kernel's text, one per line, with the warning options of generated
     /// programs; `unused`: those about variables that are never read.
     const std::string& warnings() const { return warnings_; }
     const std::string& unused() const { return unused_; }
 
   private:
-    TemporaryDirectory directory_;
+    TemporaryFolder folder_{"candela-kernel-"};
     std::string warnings_, unused_;
 };
 

@@ -86,7 +86,7 @@ WithoutInterruption::WithoutInterruption() {
 
 WithoutInterruption::~WithoutInterruption() { ::pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
 
-TemporaryFolder::TemporaryFolder(const fs::path& parent, const std::string& prefix)
+TemporaryFolder::TemporaryFolder(const std::string& prefix, const fs::path& parent)
     : path_(fs::absolute(parent) / (prefix + random_name())) {
     const WithoutInterruption during_this;
     if (!make_private_folder(path_.c_str())) {

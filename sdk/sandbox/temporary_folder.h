@@ -12,7 +12,8 @@ import candela.util;
 class TemporaryFolder {
   public:
     /// Creates it in `parent`, named `prefix` and random digits. Throws candela::Error (failure).
-    TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix);
+    explicit TemporaryFolder(const std::string& prefix,
+                             const std::filesystem::path& parent = std::filesystem::temp_directory_path());
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
     ~TemporaryFolder();

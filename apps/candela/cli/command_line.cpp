@@ -213,7 +213,7 @@ const std::string& scene_of_model(const std::string& file, bool allow_outside, b
          .shown_file = std::filesystem::path(file).filename().string(),  // it is relative to itself
          .write_picture =
              [&](const std::string& name, const std::string& content) {
-                 if (!pictures) pictures.emplace(std::filesystem::temp_directory_path(), "candela-import-");
+                 if (!pictures) pictures.emplace("candela-import-");
                  const std::filesystem::path path = pictures->path() / name;
                  candela::write_text_file(path, content);
                  return path.string();

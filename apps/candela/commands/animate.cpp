@@ -130,7 +130,7 @@ int animate(const CommandLine& line) {
     std::optional<FramePattern> pattern = outputs.frames;
     for (const fs::path& film : outputs.films) make_folder(folder_of(film));
     if (!pattern) {
-        temporary.emplace(folder_of(outputs.films.front()), ".candela-");
+        temporary.emplace(".candela-", folder_of(outputs.films.front()));
         pattern.emplace(escaped_for_pattern(temporary->path().string()) + "/%08d.png");
     }
     make_folder(folder_of(pattern->file_of(numbers.front())));

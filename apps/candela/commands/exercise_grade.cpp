@@ -121,10 +121,7 @@ Json judged_by_kit(const fs::path& kit, const Exercise& exercise, const fs::path
 class Grader {
   public:
     Grader(candela::Registry& registry, double seconds)
-        : registry_(registry),
-          seconds_(seconds),
-          kit_(conformance_kit()),
-          folder_(fs::temp_directory_path(), "candela-exercise-") {}
+        : registry_(registry), seconds_(seconds), kit_(conformance_kit()), folder_("candela-exercise-") {}
 
     Grade grade(const fs::path& file) {
         Grade grade{.file = file, .model = {}, .function = {}, .message = {}};

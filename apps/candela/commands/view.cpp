@@ -92,8 +92,8 @@ int run_view(const std::vector<std::string>& arguments) {
         line.has("target") ? LoadedTarget(line.get<std::string>("target"), registry) : page_target(registry);
     std::vector<std::string> for_generate = without({"--no-open"}, {"--port", "--target"}, arguments);
     if (!line.has("models")) for_generate.insert(for_generate.end(), {"--models", "all"});
-    const TemporaryFolder pictures(fs::temp_directory_path(), "candela-view-");
-    const TemporaryFolder kernels(fs::temp_directory_path(), "candela-view-");  // compiled by explain
+    const TemporaryFolder pictures("candela-view-");
+    const TemporaryFolder kernels("candela-view-");  // compiled by explain
     const auto for_render = without({"--no-open", "--quiet"}, {"--port", "--target", "--models"}, arguments);
     auto for_explain = for_render;
     for_explain.push_back(fmt::format("--keep={}", kernels.path().string()));

@@ -73,7 +73,7 @@ void remove_below(const fs::path& folder, const fs::path& name) {
 }  // namespace
 
 OutputFolder::OutputFolder(const fs::path& target, candela::Links links)
-    : target_(target), beside_(existing_part_of(target), ".candela-"), draft_(beside_.path() / "draft") {
+    : target_(target), beside_(".candela-", existing_part_of(target)), draft_(beside_.path() / "draft") {
     std::error_code none;
     if (links == candela::Links::not_followed && fs::is_symlink(target, none))
         fail(target, "a link is in its place; remove it");

@@ -64,7 +64,7 @@ bool is_own_folder(const fs::path& folder) {
 KernelRunner::KernelRunner(std::vector<const PluginDescriptor*> plugins, fs::path kept)
     : program_(std::move(plugins)),
       kept_(std::move(kept)),
-      folder_(kept_.empty() ? fs::temp_directory_path() : kept_, "candela-explain-") {}
+      folder_("candela-explain-", kept_.empty() ? fs::temp_directory_path() : kept_) {}
 
 void KernelRunner::prepare() {
     if (std::exchange(is_prepared_, true)) return;

@@ -31,8 +31,7 @@ void move_home(const fs::path& home) {
 
 }  // namespace
 
-Workplace::Workplace(const std::optional<std::string>& report)
-    : temporary_(fs::temp_directory_path(), "candela-") {
+Workplace::Workplace(const std::optional<std::string>& report) : temporary_("candela-") {
     ::setenv("TMPDIR", temporary_.path().c_str(), 1);
     move_home(scratch("home"));
     inherit_orphans();

@@ -180,7 +180,7 @@ fs::path page_leading_to(const std::string& address, const fs::path& folder) {
 SceneFollower::SceneFollower(Job job, std::function<void(view::Publication)> publish)
     : job_(std::move(job)),
       publish_(std::move(publish)),
-      folder_(fs::temp_directory_path(), "candela-view-"),
+      folder_("candela-view-"),
       thread_([this] { follow(); }) {}
 
 SceneFollower::~SceneFollower() {

@@ -22,7 +22,7 @@
 
 #include "at_once.h"
 #include "fence.h"
-#include "kernel_program.h"
+#include "sandbox/temporary_folder.h"
 #include "subject.h"
 
 import candela.api;
@@ -270,7 +270,7 @@ void write_file(const fs::path& file, std::span<const std::byte> bytes) {
 
 TEST_CASE("round trip: what it writes reads back as the same picture, of any size", "[image]") {
     const std::shared_ptr<ImageFormat> writer = make<ImageFormat>(default_values());
-    const TemporaryDirectory directory;
+    const TemporaryFolder folder("candela-image-");
     int compared = 0;
     for (const FileFormat& format : subject().formats) {
         const auto reader = reader_of(format, writer);
@@ -279,7 +279,7 @@ TEST_CASE("round trip: what it writes reads back as the same picture, of any siz
              {Picture(1, 1), Picture(7, 5), Picture(64, 64), Picture(1000, 3), Picture::of_runs()}) {
             Memory memory;
             writer->write(picture.view(format.pixels), format.extension, memory);
-            const fs::path file = directory.path() / (std::string("picture.") + format.extension);
+            const fs::path file = folder.path() / (std::string("picture.") + format.extension);
             write_file(file, memory.bytes);
             ReadBack back;
             try {
@@ -315,12 +315,12 @@ TEST_CASE("round trip: what it writes reads back as the same picture, of any siz
 
 TEST_CASE("bounds: nothing outside the picture is read, or written while a file is read", "[image]") {
     const auto plugin = make<ImageFormat>(default_values());
-    const TemporaryDirectory directory;
+    const TemporaryFolder folder("candela-image-");
     for (const FileFormat& format : subject().formats) {
         for (const Picture& picture : {Picture(1, 1), Picture(7, 5), Picture(64, 48)}) {
             Memory memory;
             plugin->write(picture.view(format.pixels), format.extension, memory);
-            const fs::path file = directory.path() / (std::string("picture.") + format.extension);
+            const fs::path file = folder.path() / (std::string("picture.") + format.extension);
             write_file(file, memory.bytes);
             for (const Fence fence : {Fence::after, Fence::before}) {
                 const std::string written = trespass_of_writing(*plugin, format, picture, fence);
@@ -338,7 +338,7 @@ TEST_CASE("bounds: nothing outside the picture is read, or written while a file 
 
 TEST_CASE("layers: the picture in a file of layers is its first three channels", "[image]") {
     const std::shared_ptr<ImageFormat> writer = make<ImageFormat>(default_values());
-    const TemporaryDirectory directory;
+    const TemporaryFolder folder("candela-image-");
     bool has_any = false;
     for (const FileFormat& format : subject().formats) {
         if (!format.layers) continue;
@@ -360,7 +360,7 @@ TEST_CASE("layers: the picture in a file of layers is its first three channels",
                            << " in layers runs out of disk space, but no error is reported");
             const auto reader = reader_of(format, writer);
             if (reader == nullptr) continue;
-            const fs::path file = directory.path() / (std::string("layers.") + format.extension);
+            const fs::path file = folder.path() / (std::string("layers.") + format.extension);
             write_file(file, memory.bytes);
             ReadBack back;
             reader->read(file.c_str(), back);
@@ -378,7 +378,7 @@ TEST_CASE("layers: the picture in a file of layers is its first three channels",
 
 TEST_CASE("truncated: a truncated file is refused, not read as a picture", "[image]") {
     const std::shared_ptr<ImageFormat> format_plugin = make<ImageFormat>(default_values());
-    const TemporaryDirectory directory;
+    const TemporaryFolder folder("candela-image-");
     bool reads_any = false;
     for (const FileFormat& format : subject().formats) {
         if (!format.reads) continue;
@@ -386,7 +386,7 @@ TEST_CASE("truncated: a truncated file is refused, not read as a picture", "[ima
         Memory memory;
         format_plugin->write(Picture(64, 48).view(format.pixels), format.extension, memory);
         const std::size_t whole = memory.bytes.size();
-        const fs::path file = directory.path() / (std::string("cut.") + format.extension);
+        const fs::path file = folder.path() / (std::string("cut.") + format.extension);
         for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{5}, std::size_t{20},
                                          whole / 4, whole / 2, 3 * whole / 4, 9 * whole / 10}) {
             write_file(file, std::span(memory.bytes).first(std::min(length, whole)));
@@ -447,15 +447,15 @@ TEST_CASE("failing writes: it reports that its bytes cannot be stored", "[image]
 }
 
 TEST_CASE("files of its own: it leaves none in the working directory", "[image]") {
-    const TemporaryDirectory directory;
-    fs::current_path(directory.path());
+    const TemporaryFolder folder("candela-image-");
+    fs::current_path(folder.path());
     const auto writer = make<ImageFormat>(default_values());
     for (const FileFormat& format : subject().formats) {
         Memory memory;
         writer->write(Picture(8, 8).view(format.pixels), format.extension, memory);
     }
     std::string left;
-    for (const auto& entry : fs::directory_iterator(directory.path()))
+    for (const auto& entry : fs::directory_iterator(folder.path()))
         left += " " + entry.path().filename().string();
     fs::current_path("/");
     if (!left.empty()) FAIL("writing pictures left in the working directory:" << left);

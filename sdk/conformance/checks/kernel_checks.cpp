@@ -13,6 +13,7 @@
 #include "agreement.h"
 #include "batch.h"
 #include "kernel_program.h"
+#include "sandbox/temporary_folder.h"
 
 import candela.api;
 import candela.geometry;
@@ -146,8 +147,8 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
         std::ifstream file(include / part);
         prelude.append(std::istreambuf_iterator<char>(file), {});
     }
-    const TemporaryDirectory directory;
-    const std::filesystem::path shader = directory.path() / "shader.frag";
+    const TemporaryFolder folder("candela-kernel-");
+    const std::filesystem::path shader = folder.path() / "shader.frag";
     for (const std::string version : {"330 core", "300 es"}) {
         std::ofstream(shader) << "#version " << version << "\n"
                               << (version == "300 es" ? "precision highp float;\nprecision highp int;\n" : "")

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "conditions.h"
-#include "kernel_program.h"
+#include "sandbox/temporary_folder.h"
 #include "subject.h"
 
 import candela.plugins;
@@ -49,7 +49,7 @@ class Exported {
         candela::SceneRequest request;
         request.settings = {{"--width", "image.width", "64"}, {"--height", "image.height", "48"}};
         if (!text.empty()) {
-            request.files = {directory_.path() / "scene.toml"};
+            request.files = {folder_.path() / "scene.toml"};
             std::ofstream(request.files.front(), std::ios::binary) << text;
         }
         candela::Diagnostics diagnostics;
@@ -65,7 +65,7 @@ class Exported {
     const candela::ExportedScene& scene() const { return export_->scene(); }
 
   private:
-    TemporaryDirectory directory_;
+    TemporaryFolder folder_{"candela-target-"};
     candela::Registry registry_;
     std::optional<candela::SceneExport> export_;
 };
@@ -208,11 +208,11 @@ TEST_CASE("full disk: exceptions of the host while files are written come out of
 TEST_CASE("files of its own: writing leaves none in the working directory", "[target]") {
     const auto target = make<Target>(default_values());
     const Exported exported(*target);
-    const TemporaryDirectory directory;
-    fs::current_path(directory.path());
+    const TemporaryFolder folder("candela-target-");
+    fs::current_path(folder.path());
     files_of(*target, exported);
     std::string left;
-    for (const auto& entry : fs::directory_iterator(directory.path()))
+    for (const auto& entry : fs::directory_iterator(folder.path()))
         left += " " + entry.path().filename().string();
     fs::current_path("/");
     if (!left.empty()) FAIL("it left in the working directory:" << left);
@@ -222,16 +222,16 @@ TEST_CASE("picture: what it writes can be built, and draws a picture of the imag
     const auto target = make<Target>(default_values());
     if (!target->can_draw()) SKIP("it draws no pictures");
     const Exported exported(*target);
-    const TemporaryDirectory directory;
+    const TemporaryFolder folder("candela-target-");
     for (const ExportedFile& file : files_of(*target, exported)) {
-        fs::create_directories((directory.path() / file.name).parent_path());
-        candela::write_text_file(directory.path() / file.name, file.content);
+        fs::create_directories((folder.path() / file.name).parent_path());
+        candela::write_text_file(folder.path() / file.name, file.content);
     }
     candela::SystemPrograms programs;
-    const fs::path picture = directory.path() / "picture.png";
+    const fs::path picture = folder.path() / "picture.png";
     try {
-        target->build(directory.path().c_str(), programs);
-        target->draw(directory.path().c_str(), picture.c_str(), programs);
+        target->build(folder.path().c_str(), programs);
+        target->draw(folder.path().c_str(), picture.c_str(), programs);
     } catch (const std::exception& problem) {
         WARN("this machine cannot draw the picture: " << problem.what());
         return;

@@ -11,7 +11,8 @@ namespace candela::target {
 
 void write(FileSink& files, const char* name, std::string_view content);
 
-/// A new folder in `parent`, which is removed with this object.
+/// A new folder in `parent`, which is removed with this object. Code in plugins cannot use the sandbox's,
+/// which is also removed when a signal ends the program: signal handlers are the program's.
 class TemporaryFolder {
   public:
     /// Throws std::runtime_error if it cannot be created.
