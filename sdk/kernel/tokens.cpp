@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <utility>
 
 #include "candela/kernel_language/language.h"
+#include "candela/kernel_language/lexer.h"
 
 import candela.util;
 
@@ -17,25 +17,16 @@ namespace {
 
 constexpr std::size_t k_longest_word = 100;  // bytes
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool begins_name(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-
-constexpr std::array<std::string_view, 13> k_pairs = {"==", "!=", "<=", ">=", "&&", "||", "++",
-                                                      "--", "+=", "-=", "*=", "/=", "%="};
 constexpr std::string_view k_signs = "+-*/%<>=!?:;,.(){}[]";
 
-class Lexer {
+/// Refuses what other C++ and GLSL may contain, but the kernel language does not.
+class TokenChecker {
   public:
-    Lexer(std::string_view text, std::uint8_t source) : text_(text), source_(source) {}
+    TokenChecker(std::string_view text, std::uint8_t source) : text_(text), source_(source) {}
 
     std::vector<Token> tokens() {
-        for (skip(); at_ < text_.size(); skip()) {
-            if (tokens_.size() >= k_most_tokens)
-                refuse(at_, fmt::format("the text has more than {} words and signs", k_most_tokens));
-            next();
-        }
-        take(Token::Kind::end, 0);
+        for (const Lexeme& lexeme : lexemes_of(text_)) add(lexeme);
+        take(Token::Kind::end, {.text = {}, .offset = text_.size()});
         return std::move(tokens_);
     }
 
@@ -46,134 +37,115 @@ class Lexer {
 
     TextPosition place(std::size_t at) const { return {static_cast<std::uint32_t>(at), source_}; }
 
-    char peek(std::size_t ahead = 0) const { return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0'; }
+    char peek(std::size_t at) const { return at < text_.size() ? text_[at] : '\0'; }
 
-    void take(Token::Kind kind, std::size_t length) {
-        tokens_.push_back({kind, text_.substr(at_, length), place(at_)});
-        at_ += length;
+    void take(Token::Kind kind, const Lexeme& lexeme) {
+        tokens_.push_back({kind, lexeme.text, place(lexeme.offset)});
     }
 
-    /// Skips blanks and comments.
-    void skip() {
-        while (at_ < text_.size()) {
-            if (is_space(text_[at_])) {
-                refuse_line_end(at_);
-                ++at_;
-            } else if (text_.substr(at_).starts_with("//")) {
-                comment(std::min(text_.find('\n', at_), text_.size()));
-            } else if (text_.substr(at_).starts_with("/*")) {
-                const std::size_t end = text_.find("*/", at_ + 2);
-                if (end == std::string_view::npos) refuse(at_, "this comment is not closed");
-                comment(end + 2);
-            } else {
-                return;
-            }
+    void add(const Lexeme& lexeme) {
+        if (lexeme.kind == Lexeme::Kind::blank) return check_blank(lexeme);
+        if (lexeme.kind == Lexeme::Kind::comment) return check_comment(lexeme);
+        if (tokens_.size() >= k_most_tokens)
+            refuse(lexeme.offset, fmt::format("the text has more than {} words and signs", k_most_tokens));
+        if (lexeme.kind == Lexeme::Kind::name) return name(lexeme);
+        if (lexeme.is_word()) return number(lexeme);
+        sign(lexeme);
+    }
+
+    void check_blank(const Lexeme& blank) const {
+        for (std::size_t at = blank.offset; at < blank.end(); ++at) {
+            refuse_line_end(at);
+            if (text_[at] == '\v' || text_[at] == '\f') refuse_character(at);
         }
     }
 
-    /// Skips a comment. The only error in a comment is a line that ends with a backslash: C++ joins it with
-    /// the next before it looks for comments.
-    void comment(std::size_t end) {
-        for (; at_ < end; ++at_) {
-            refuse_line_end(at_);
-            const bool is_splice = text_[at_] == '\\' || text_.substr(at_, 3) ==
-                                                             "?"
-                                                             "?/";
+    /// Apart from the end, the only error in a comment is a line that ends with a backslash: C++ joins it
+    /// with the next before it looks for comments.
+    void check_comment(const Lexeme& comment) const {
+        const bool is_open =
+            comment.text.starts_with("/*") && (comment.text.size() < 4 || !comment.text.ends_with("*/"));
+        if (is_open) refuse(comment.offset, "this comment is not closed");
+        for (std::size_t at = comment.offset; at < comment.end(); ++at) {
+            refuse_line_end(at);
+            const bool is_splice = text_[at] == '\\' || text_.substr(at, 3) ==
+                                                            "?"
+                                                            "?/";
             if (!is_splice) continue;
-            const std::size_t length = text_[at_] == '\\' ? 1 : 3;
-            const std::size_t next = text_.find_first_not_of(" \t\r\v\f", at_ + length);
+            const std::size_t length = text_[at] == '\\' ? 1 : 3;
+            const std::size_t next = text_.find_first_not_of(" \t\r\v\f", at + length);
             if (next == std::string_view::npos || text_[next] == '\n')
-                refuse(at_, "a line of a comment must not end with '\\'");
+                refuse(at, "a line of a comment must not end with '\\'");
         }
     }
 
     /// A carriage return alone ends a line for some compilers, but not for others.
     void refuse_line_end(std::size_t at) const {
-        if (text_[at] == '\r' && (at + 1 >= text_.size() || text_[at + 1] != '\n'))
-            refuse(at, R"(a line ends with \n, or with \r\n)");
+        if (text_[at] == '\r' && peek(at + 1) != '\n') refuse(at, R"(a line ends with \n, or with \r\n)");
     }
 
-    void next() {
-        const char c = peek();
-        const std::string_view pair = text_.substr(at_, 2);
-        if (begins_name(c)) return name();
-        if (is_digit(c) || (c == '.' && is_digit(peek(1)))) return number();
+    [[noreturn]] void refuse_character(std::size_t at) const {
+        const std::string_view character = first_character(text_.substr(at));
+        refuse(at, fmt::format("the kernel language has no '{}'", printable(character)));
+    }
+
+    void sign(const Lexeme& sign) {
+        const std::size_t at = sign.offset;
+        const char c = text_[at];
+        const std::string_view pair = text_.substr(at, 2);
         if (c == '#' || pair == "%:" ||
             pair ==
                 "?"
                 "?")
-            refuse(at_, "the kernel language has no preprocessor");
-        if (c == '"' || c == '\'') refuse(at_, "the kernel language has no strings");
+            refuse(at, "the kernel language has no preprocessor");
+        if (c == '"' || c == '\'') refuse(at, "the kernel language has no strings");
         if (pair == "<:" || pair == ":>" || pair == "[[")
-            refuse(at_, "the kernel language has neither arrays nor attributes");
-        if (pair == "<%" || pair == "%>") refuse(at_, "write braces as { and }");
+            refuse(at, "the kernel language has neither arrays nor attributes");
+        if (pair == "<%" || pair == "%>") refuse(at, "write braces as { and }");
         if (pair == "::" || pair == "->" || pair == "<<" || pair == ">>")
-            refuse(at_, fmt::format("the kernel language has no '{}'", pair));
-        for (const std::string_view known : k_pairs)
-            if (pair == known) return take(Token::Kind::sign, 2);
-        if (c == '&')
-            refuse(at_,
+            refuse(at, fmt::format("the kernel language has no '{}'", pair));
+        if (sign.text == "&")
+            refuse(at,
                    "the kernel language has neither pointers nor references, nor operators of bits; write "
                    "'and' as &&");
-        if (k_signs.find(c) != std::string_view::npos) return take(Token::Kind::sign, 1);
-        const std::string_view character = first_character(text_.substr(at_));
-        refuse(at_, fmt::format("the kernel language has no '{}'", printable(character)));
+        if (sign.text.size() == 1 && k_signs.find(c) == std::string_view::npos) refuse_character(at);
+        take(Token::Kind::sign, sign);
     }
 
-    void name() {
-        std::size_t length = 1;
-        while (begins_name(peek(length)) || is_digit(peek(length))) ++length;
+    void name(const Lexeme& name) {
+        if (name.text.size() > k_longest_word)
+            refuse(name.offset, fmt::format("a name has at most {} characters", k_longest_word));
+        take(Token::Kind::name, name);
+    }
+
+    void number(const Lexeme& number) {
+        const std::size_t at = number.offset, length = number.text.size();
+        const bool is_real = number.kind == Lexeme::Kind::real;
+        const std::string digits(number.text);  // strtof() stops at an f
+        const char next = peek(number.end());
+        if ((next >= 'a' && next <= 'z') || (next >= 'A' && next <= 'Z') || (next >= '0' && next <= '9') ||
+            next == '_' || next == '\'' || next == '.')
+            refuse(at, "this is not a number of the kernel language; write it like 0.5 or 3");
         if (length > k_longest_word)
-            refuse(at_, fmt::format("a name has at most {} characters", k_longest_word));
-        take(Token::Kind::name, length);
-    }
-
-    std::size_t digits(std::size_t from) const {
-        while (is_digit(peek(from))) ++from;
-        return from;
-    }
-
-    /// "3", "0.5", ".5", "5.", "1e-6"; all except the first may end in f.
-    void number() {
-        std::size_t length = digits(0);
-        bool is_real = false;
-        if (peek(length) == '.') {
-            length = digits(length + 1);
-            is_real = true;
-        }
-        if (peek(length) == 'e' || peek(length) == 'E') {
-            const std::size_t sign = peek(length + 1) == '+' || peek(length + 1) == '-' ? 1 : 0;
-            if (is_digit(peek(length + 1 + sign))) {
-                length = digits(length + 1 + sign);
-                is_real = true;
-            }
-        }
-        const std::string digits_only(text_.substr(at_, length));
-        if (is_real && (peek(length) == 'f' || peek(length) == 'F')) ++length;
-        if (begins_name(peek(length)) || is_digit(peek(length)) || peek(length) == '\'' ||
-            peek(length) == '.')
-            refuse(at_, "this is not a number of the kernel language; write it like 0.5 or 3");
-        if (length > k_longest_word)
-            refuse(at_, fmt::format("a number has at most {} characters", k_longest_word));
-        if (is_real && !std::isfinite(std::strtof(digits_only.c_str(), nullptr)))
-            refuse(at_, "this number is out of range: at most 3.4e38");
-        if (!is_real && length > 1 && peek() == '0')
-            refuse(at_, "an integer must not begin with 0, which would make it octal");
-        if (!is_real && (length > 10 || std::strtoll(digits_only.c_str(), nullptr, 10) > 2147483647LL))
-            refuse(at_, "this integer is out of range: at most 2147483647");
-        take(is_real ? Token::Kind::real : Token::Kind::integer, length);
+            refuse(at, fmt::format("a number has at most {} characters", k_longest_word));
+        if (is_real && !std::isfinite(std::strtof(digits.c_str(), nullptr)))
+            refuse(at, "this number is out of range: at most 3.4e38");
+        if (!is_real && length > 1 && number.text.front() == '0')
+            refuse(at, "an integer must not begin with 0, which would make it octal");
+        if (!is_real && (length > 10 || std::strtoll(digits.c_str(), nullptr, 10) > 2147483647LL))
+            refuse(at, "this integer is out of range: at most 2147483647");
+        take(is_real ? Token::Kind::real : Token::Kind::integer, number);
     }
 
     std::string_view text_;
     std::uint8_t source_;
-    std::size_t at_ = 0;
     std::vector<Token> tokens_;
 };
 
 }  // namespace
 
 std::vector<Token> tokens_of(std::string_view text, std::uint8_t source) {
-    return Lexer(text, source).tokens();
+    return TokenChecker(text, source).tokens();
 }
 
 }  // namespace candela::kernel_language

@@ -7,10 +7,10 @@
 #include <array>
 
 #include "candela/embed.h"
+#include "candela/kernel_language/lexer.h"
 #include "candela/target/kernels.h"
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
-#include "tokens.h"
 
 CANDELA_EMBED(candela_target_trigonometry, CANDELA_TARGET_TEMPLATES "/trigonometry.glsl");
 CANDELA_EMBED(candela_target_lit, CANDELA_TARGET_TEMPLATES "/lit.glsl");
@@ -217,10 +217,10 @@ std::string stage_text(const char* text, const std::vector<Feature>& features, V
 
 bool has_trigonometry(const std::string& code) {
     constexpr std::array<std::string_view, 4> k_functions = {"sin", "cos", "asin", "acos"};
-    const std::vector<Token> tokens = tokens_of(code);
+    const auto tokens = kernel_language::code_of(code);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         if (std::ranges::find(k_functions, tokens[i].text) != k_functions.end() &&
-            text_at(tokens, i + 1) == "(")
+            kernel_language::text_at(tokens, i + 1) == "(")
             return true;
     }
     return false;

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "candela/embed.h"
+#include "candela/kernel_language/lexer.h"
 #include "candela/target/literals.h"
-#include "tokens.h"
 
 CANDELA_EMBED(candela_target_prelude, CANDELA_TARGET_PRELUDE);
 CANDELA_EMBED(candela_target_tables, CANDELA_TARGET_TABLES);
@@ -21,10 +21,14 @@ namespace candela::target {
 
 namespace {
 
+using kernel_language::code_of;
+using kernel_language::Lexeme;
+using kernel_language::text_at;
+
 /// Everything that a kernel declares at the top: structs, functions.
-std::vector<std::string> declared_names(const std::string& kernel) {
+std::vector<std::string> declared_names(std::string_view kernel) {
     std::vector<std::string> names;
-    const std::vector<Token> tokens = tokens_of(kernel);
+    const std::vector<Lexeme> tokens = code_of(kernel);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         if (tokens[i].text == "struct" && text_at(tokens, i + 2) == "{")
             names.emplace_back(tokens[i + 1].text);
@@ -41,19 +45,14 @@ const KernelFunction* function_of(const ExportedModel& model, std::string_view n
     return nullptr;
 }
 
-/// The words of a text, except those of the standard library.
-std::set<std::string> words_of(std::string_view text) {
-    const auto begins_word = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-    };
-    const auto is_in_word = [&](char c) { return begins_word(c) || (c >= '0' && c <= '9'); };
-    std::set<std::string> words;
-    for (auto at = std::ranges::find_if(text, begins_word); at != text.end();) {
-        const auto end = std::find_if_not(at, text.end(), is_in_word);
-        if (!std::string_view(text.begin(), at).ends_with("std::")) words.emplace(at, end);
-        at = std::find_if(end, text.end(), begins_word);
+/// The names in a text, except those of the standard library.
+std::set<std::string> names_in(std::string_view text) {
+    std::set<std::string> names;
+    for (const Lexeme& lexeme : code_of(text)) {
+        if (lexeme.kind == Lexeme::Kind::name && !text.substr(0, lexeme.offset).ends_with("std::"))
+            names.emplace(lexeme.text);
     }
-    return words;
+    return names;
 }
 
 struct Paragraph {
@@ -68,13 +67,13 @@ std::vector<std::string> declared_by(const std::string& code) {
         return word == "KERNEL" || word == "inline" || word == "static" || word == "const";
     };
     const auto follows_name = [](std::string_view text) { return text == "(" || text == "{" || text == "="; };
-    const auto is_in_type = [](const Token& token) {
+    const auto is_in_type = [](const Lexeme& token) {
         return token.is_word() || std::string_view(":<>,").find(token.text) != std::string_view::npos;
     };
     std::vector<std::string> names;
-    const std::vector<Token> tokens = tokens_of(code);
+    const std::vector<Lexeme> tokens = code_of(code);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
-        if (!tokens[i].begins_line) continue;
+        if (tokens[i].offset > 0 && code[tokens[i].offset - 1] != '\n') continue;
         if (tokens[i].text == "struct" && text_at(tokens, i + 2) == "{")
             names.emplace_back(tokens[i + 1].text);
         if (!begins_declaration(tokens[i].text)) continue;
@@ -95,7 +94,7 @@ std::vector<Paragraph> paragraphs_of(const std::string& text) {
     std::string line, current;
     const auto end = [&] {
         if (current.empty()) return;
-        all.push_back({.text = current, .declares = declared_by(without_comments(current))});
+        all.push_back({.text = current, .declares = declared_by(current)});
         current.clear();
     };
     while (std::getline(lines, line)) {
@@ -111,21 +110,7 @@ std::vector<Paragraph> paragraphs_of(const std::string& text) {
 
 }  // namespace
 
-std::string without_comments(const std::string& text) {
-    std::string result;
-    for (std::size_t i = 0; i < text.size();) {
-        if (text.compare(i, 2, "//") == 0) {
-            i = std::min(text.find('\n', i), text.size());
-        } else if (text.compare(i, 2, "/*") == 0) {
-            const std::size_t end = text.find("*/", i + 2);
-            i = end == std::string::npos ? text.size() : end + 2;
-            result += ' ';
-        } else {
-            result += text[i++];
-        }
-    }
-    return result;
-}
+std::string without_comments(std::string_view text) { return kernel_language::without_comments(text); }
 
 std::string_view kernel_prelude() { return candela_target_prelude; }
 std::string_view glsl_tables() { return candela_target_tables; }
@@ -149,8 +134,8 @@ std::string call(const ExportedModel& model, std::string_view name, std::string_
 std::string constants_type(const ExportedModel& model) {
     const KernelText& kernel = model.plugin->kernel;
     if (!has_function(model, "prepare")) return kernel.parameters;
-    const std::string code = without_comments(kernel.text), name = fmt::format("{}_prepare", kernel.prefix);
-    const std::vector<Token> tokens = tokens_of(code);
+    const std::string name = fmt::format("{}_prepare", kernel.prefix);
+    const std::vector<Lexeme> tokens = code_of(kernel.text);
     for (std::size_t i = 0; i < tokens.size(); ++i) {
         if (tokens[i].text == "KERNEL" && text_at(tokens, i + 2) == name && text_at(tokens, i + 3) == "(")
             return std::string(tokens[i + 1].text);
@@ -191,7 +176,7 @@ void require_different_names(const ExportedScene& scene) {
     for (const ExportedModel& model : all) {
         if (model.plugin->kernel.text == nullptr) continue;
         const std::string id = id_of(model);
-        for (const std::string& name : declared_names(without_comments(model.plugin->kernel.text))) {
+        for (const std::string& name : declared_names(model.plugin->kernel.text)) {
             const auto [at, is_new] = whose.try_emplace(name, id);
             if (is_new || at->second == id) continue;
             throw std::runtime_error(
@@ -204,7 +189,7 @@ void require_different_names(const ExportedScene& scene) {
 
 std::string needed_parts(std::string_view library, const std::string& users) {
     std::vector<Paragraph> all = paragraphs_of(std::string(library));
-    std::set<std::string> wanted = words_of(without_comments(users));
+    std::set<std::string> wanted = names_in(users);
     for (bool has_grown = true; has_grown;) {
         has_grown = false;
         for (Paragraph& p : all) {
@@ -213,7 +198,7 @@ std::string needed_parts(std::string_view library, const std::string& users) {
                             return wanted.contains(name);
                         });
             if (!p.is_kept) continue;
-            wanted.merge(words_of(without_comments(p.text)));
+            wanted.merge(names_in(p.text));
             has_grown = true;
         }
     }

@@ -14,7 +14,8 @@ import sys
 LAYERS = ["include", "api", "util", "plugins", "scene", "geometry", "raster", "shading", "render", "embedding", "core"]
 SOURCES = {".cpp", ".cppm", ".h", ".kernel"}
 # The parts that are compiled into plugins, as opposed to the SDK's programs.
-SDK_OF_PLUGINS = ("sdk/include/", "sdk/mesh_io/", "sdk/target/", "sdk/templates/")
+SDK_OF_PLUGINS = ("sdk/include/", "sdk/mesh_io/", "sdk/target/", "sdk/templates/", "sdk/kernel/lexer.cpp",
+                  "sdk/kernel/include/candela/kernel_language/lexer.h")
 HEADERS, MODULE = "core/include/candela/", "core/api/api.cppm"
 # Headers that no module exports: macros, kernels, templates, headers that only tests of plugins include, and those about
 # memory or files only.

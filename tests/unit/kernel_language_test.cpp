@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "candela/kernel_language/language.h"
+#include "candela/kernel_language/lexer.h"
 #include "support/command.h"
 
 namespace fs = std::filesystem;
@@ -483,4 +484,19 @@ TEST_CASE("kernel language: integer operations that C++ leaves undefined are def
     CHECK(holds(text, "a %= 3;"));
     // Programs are generated from the kernel language itself.
     CHECK(!holds(plain("KERNEL int f(int a) { return a / a; }"), "candela_"));
+}
+
+TEST_CASE("lexer: the lexemes of any text are the text, and comments can be left out") {
+    const std::string text =
+        "#define A(x) \\\n x\nvec3 r=2.5e-3f*n[0]; /* a\n*/h<<=.5; // b\n if(a<=b&&!c)\xff\t\"d\" /* open";
+    std::string joined, code;
+    for (const kl::Lexeme& lexeme : kl::lexemes_of(text)) {
+        CHECK(lexeme.offset == joined.size());
+        joined += lexeme.text;
+    }
+    CHECK(joined == text);
+    for (const kl::Lexeme& lexeme : kl::code_of("vec3 r=2.5e-3f*n[0]; /* a */h<=.5||b // c"))
+        code += std::string(lexeme.text) + " ";
+    CHECK(code == "vec3 r = 2.5e-3f * n [ 0 ] ; h <= .5 || b ");
+    CHECK(kl::without_comments("a/* b */c // d\ne") == "a c \ne");
 }

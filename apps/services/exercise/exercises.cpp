@@ -5,16 +5,16 @@
 
 #include <algorithm>
 #include <optional>
-#include <regex>
 #include <system_error>
 
-#include "candela/target/kernels.h"
+#include "candela/kernel_language/lexer.h"
 #include "json/json.h"
 
 import candela.api;
 import candela.util;
 
 namespace fs = std::filesystem;
+namespace kl = candela::kernel_language;
 using candela::Error;
 using candela::ErrorCategory;
 
@@ -26,12 +26,24 @@ constexpr std::size_t k_most_files = 10'000;
 
 /// The names of the functions defined by a kernel.
 std::vector<std::string> functions_of(const std::string& text) {
-    static const std::regex k_function(R"(\bKERNEL\s+\w+\s+(\w+)\s*\()");
+    const std::vector<kl::Lexeme> code = kl::code_of(text);
     std::vector<std::string> names;
-    for (auto m = std::sregex_iterator(text.begin(), text.end(), k_function); m != std::sregex_iterator();
-         ++m)
-        names.push_back((*m)[1]);
+    for (std::size_t i = 0; i < code.size(); ++i) {
+        if (code[i].text == "KERNEL" && kl::text_at(code, i + 3) == "(") names.emplace_back(code[i + 2].text);
+    }
     return names;
+}
+
+/// The index of the brace that opens a function's body; the code's size if the function is not defined.
+std::size_t opening_brace_of(std::string_view function, const std::vector<kl::Lexeme>& code) {
+    for (std::size_t i = 0; i < code.size(); ++i) {
+        if (code[i].text != "KERNEL" || kl::text_at(code, i + 2) != function ||
+            kl::text_at(code, i + 3) != "(")
+            continue;
+        while (i < code.size() && code[i].text != ")") ++i;
+        if (kl::text_at(code, i + 1) == "{") return i + 1;
+    }
+    return code.size();
 }
 
 Error no_answer(const fs::path& file, const std::string& why) {
@@ -64,23 +76,23 @@ const candela::PluginFile& loaded_model(const std::string& model, candela::Regis
 }
 
 TextAroundBody text_around_body(const std::string& text, const std::string& function) {
-    const std::regex defined(fmt::format(R"(\bKERNEL\s+\w+\s+{}\s*\([^)]*\)\s*\{{)", function));
-    std::smatch found;
-    if (!std::regex_search(text, found, defined))
+    const std::vector<kl::Lexeme> code = kl::code_of(text);
+    const std::size_t open = opening_brace_of(function, code);
+    if (open == code.size())
         throw Error(ErrorCategory::bad_request,
                     fmt::format("the kernel declares {}() in a way that exercises do not support", function));
-    const auto begin = static_cast<std::size_t>(found.position() + found.length());
-    std::size_t end = begin;
-    for (std::size_t depth = 1; end < text.size(); ++end) {
-        if (text[end] == '{') ++depth;
-        if (text[end] == '}' && --depth == 0) break;
+    std::size_t close = open + 1;
+    for (std::size_t depth = 1; close < code.size(); ++close) {
+        if (code[close].text == "{") ++depth;
+        if (code[close].text == "}" && --depth == 0) break;
     }
-    return {.before = text.substr(0, begin), .after = text.substr(end)};
+    return {.before = text.substr(0, code[open].end()),
+            .after = close < code.size() ? text.substr(code[close].offset) : ""};
 }
 
 Exercise exercise_about(const std::string& model, const std::string& function, candela::Registry& registry) {
     const candela::PluginFile& file = loaded_model(model, registry);
-    const std::string text = candela::target::without_comments(file.descriptor->kernel.text);
+    const std::string text = kl::without_comments(file.descriptor->kernel.text);
     const std::string prefix = std::string(file.descriptor->kernel.prefix) + "_";
     const std::vector<std::string> names = functions_of(text);
     const auto is_defined = [&](const std::string& name) {
@@ -104,11 +116,10 @@ Exercise exercise_about(const std::string& model, const std::string& function, c
                                 file.manifest.name, function, meant.empty() ? "" : "; " + meant,
                                 fmt::join(short_names, ", ")));
     }
-    candela::kernel_language::Source kernel{.name = file.manifest.name + ".kernel",
-                                            .text = file.descriptor->kernel.text};
+    kl::Source kernel{.name = file.manifest.name + ".kernel", .text = file.descriptor->kernel.text};
     try {
-        static_cast<void>(candela::kernel_language::read_kernel(kernel));
-    } catch (const candela::kernel_language::Problem& problem) {
+        static_cast<void>(kl::read_kernel(kernel));
+    } catch (const kl::Problem& problem) {
         throw Error(ErrorCategory::bad_request,
                     fmt::format("the kernel of reflection/{} is not in the kernel language: {}",
                                 file.manifest.name, problem.text()));

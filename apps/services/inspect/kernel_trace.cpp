@@ -4,61 +4,50 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <optional>
+#include <span>
 #include <utility>
+
+#include "candela/kernel_language/lexer.h"
+
+namespace kl = candela::kernel_language;
 
 namespace {
 
-bool begins_word(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
-bool continues_word(char c) { return begins_word(c) || std::isdigit(static_cast<unsigned char>(c)) != 0; }
-bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
+using Code = std::span<const kl::Lexeme>;
 
-/// The text with blanks for comments and preprocessor lines, so that positions and line numbers stay the
-/// same.
-std::string without_comments(std::string_view text) {
-    std::string result(text);
-    bool at_line_begin = true;
-    const auto blank = [&](std::size_t from, std::size_t to) {
-        for (std::size_t i = from; i < to; ++i) {
-            if (result[i] != '\n') result[i] = ' ';
-        }
-    };
-    for (std::size_t i = 0; i < text.size();) {
-        const std::string_view rest = text.substr(i);
-        std::size_t end = i;
-        if (rest.starts_with("//")) {
-            end = std::min(text.find('\n', i), text.size());
-        } else if (rest.starts_with("/*")) {
-            const std::size_t close = text.find("*/", i + 2);
-            end = close == std::string_view::npos ? text.size() : close + 2;
-        } else if (at_line_begin && rest.starts_with('#')) {
-            do {
-                end = std::min(text.find('\n', end + (end > i ? 1 : 0)), text.size());
-            } while (end < text.size() && text[end - 1] == '\\');
-        }
-        if (end > i) {
-            blank(i, end);
-            i = end;
-            continue;
-        }
-        at_line_begin = text[i] == '\n' || (at_line_begin && is_space(text[i]));
-        ++i;
-    }
-    return result;
+bool is_name(const kl::Lexeme& lexeme) { return lexeme.kind == kl::Lexeme::Kind::name; }
+
+/// The position after the preprocessor line that begins at `offset`.
+std::size_t end_of_directive(std::string_view text, std::size_t offset) {
+    std::size_t end = text.find('\n', offset);
+    while (end != std::string_view::npos && text[end - 1] == '\\') end = text.find('\n', end + 1);
+    return std::min(end, text.size());
 }
 
-std::string_view trimmed(std::string_view text) {
-    while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
-    while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
-    return text;
+/// The lexemes of a kernel that its compiler sees: neither comments nor preprocessor lines.
+std::vector<kl::Lexeme> compiled_code(std::string_view text) {
+    std::vector<kl::Lexeme> code;
+    std::size_t directive_end = 0;
+    bool at_line_begin = true;
+    for (const kl::Lexeme& lexeme : kl::lexemes_of(text)) {
+        if (lexeme.text.find('\n') != std::string_view::npos) at_line_begin = true;
+        if (lexeme.is_skipped() || lexeme.offset < directive_end) continue;
+        if (at_line_begin && lexeme.text == "#") {
+            directive_end = end_of_directive(text, lexeme.offset);
+            continue;
+        }
+        at_line_begin = false;
+        code.push_back(lexeme);
+    }
+    return code;
 }
 
 std::string on_one_line(std::string_view text) {
     std::string result;
-    for (const char c : trimmed(text)) {
-        if (!is_space(c)) {
-            result += c;
+    for (const kl::Lexeme& lexeme : kl::lexemes_of(text)) {
+        if (!lexeme.is_skipped()) {
+            result += lexeme.text;
         } else if (!result.ends_with(' ')) {
             result += ' ';
         }
@@ -66,89 +55,106 @@ std::string on_one_line(std::string_view text) {
     return result;
 }
 
-std::string_view first_word(std::string_view text) {
-    if (text.empty() || !begins_word(text.front())) return {};
-    return text.substr(
-        0, static_cast<std::size_t>(std::ranges::find_if_not(text, continues_word) - text.begin()));
+/// The index of the first lexeme with this text; the code's size if there is none.
+std::size_t index_of(std::string_view text, Code code) {
+    return static_cast<std::size_t>(std::ranges::find(code, text, &kl::Lexeme::text) - code.begin());
 }
 
-std::string_view last_word(std::string_view text) {
-    text = trimmed(text);
-    std::size_t begin = text.size();
-    while (begin > 0 && continues_word(text[begin - 1])) --begin;
-    return text.substr(begin);
-}
-
-/// The parts of `text` between commas outside parentheses.
-std::vector<std::string_view> parts_of(std::string_view text) {
-    std::vector<std::string_view> parts;
+/// The parts of the code between commas outside brackets.
+std::vector<Code> parts_of(Code code) {
+    std::vector<Code> parts;
     int depth = 0;
     std::size_t begin = 0;
-    for (std::size_t i = 0; i <= text.size(); ++i) {
-        const char c = i < text.size() ? text[i] : ',';
-        if (c == '(' || c == '[' || c == '{') ++depth;
-        if (c == ')' || c == ']' || c == '}') --depth;
-        if (c != ',' || (depth > 0 && i < text.size())) continue;
-        if (!trimmed(text.substr(begin, i - begin)).empty())
-            parts.push_back(trimmed(text.substr(begin, i - begin)));
+    for (std::size_t i = 0; i <= code.size(); ++i) {
+        const std::string_view text = i < code.size() ? code[i].text : ",";
+        if (text == "(" || text == "[" || text == "{") ++depth;
+        if (text == ")" || text == "]" || text == "}") --depth;
+        if (text != "," || (depth > 0 && i < code.size())) continue;
+        if (i > begin) parts.push_back(code.subspan(begin, i - begin));
         begin = i + 1;
     }
     return parts;
 }
 
-/// The position of a statement's assignment operator, if it has one.
-std::optional<std::size_t> assignment_in(std::string_view statement) {
+/// The index of a statement's assignment operator, if it has one.
+std::optional<std::size_t> assignment_in(Code statement) {
+    constexpr std::array<std::string_view, 6> k_operators = {"=", "+=", "-=", "*=", "/=", "%="};
+    constexpr std::array<std::string_view, 4> k_comparisons = {"==", "!=", "<=", ">="};
     int depth = 0;
     for (std::size_t i = 0; i < statement.size(); ++i) {
-        const char c = statement[i];
-        if (c == '(' || c == '[') ++depth;
-        if (c == ')' || c == ']') --depth;
-        if (c != '=' || depth != 0) continue;
-        if (i + 1 < statement.size() && statement[i + 1] == '=') return std::nullopt;
-        const char before = i > 0 ? statement[i - 1] : ' ';
-        if (before == '<' || before == '>' || before == '!') return std::nullopt;
-        return std::string_view("+-*/%&|^").find(before) != std::string_view::npos ? i - 1 : i;
+        const std::string_view text = statement[i].text;
+        if (text == "(" || text == "[") ++depth;
+        if (text == ")" || text == "]") --depth;
+        if (depth != 0) continue;
+        if (std::ranges::find(k_comparisons, text) != k_comparisons.end()) return std::nullopt;
+        if (std::ranges::find(k_operators, text) == k_operators.end()) continue;
+        // The kernel language has no operators of bits, but the kernels of plugins may.
+        const bool is_of_bits = i > 0 && statement[i - 1].end() == statement[i].offset &&
+                                std::string_view("&|^").find(statement[i - 1].text) != std::string_view::npos;
+        return is_of_bits ? i - 1 : i;
     }
     return std::nullopt;
+}
+
+/// "vec3 r = …", "const float x = …", "float a, b".
+bool is_declaration(Code statement) {
+    return statement.size() > 1 && is_name(statement[0]) && is_name(statement[1]);
 }
 
 class Tracer {
   public:
     Tracer(std::string_view text, std::string file, std::vector<KernelStep>& steps)
-        : raw_(text), text_(without_comments(text)), file_(std::move(file)), steps_(steps) {}
+        : text_(text), code_(compiled_code(text)), file_(std::move(file)), steps_(steps) {}
 
     std::string traced() {
-        while (at_ < text_.size()) declaration();
+        while (at_ < code_.size()) declaration();
+        copy_to(text_.size());
         return std::move(out_);
     }
 
   private:
-    std::string_view rest() const { return std::string_view(text_).substr(at_); }
+    Code code(std::size_t begin, std::size_t end) const { return Code(code_).subspan(begin, end - begin); }
+    std::string_view text(std::size_t at) const { return kl::text_at(code_, at); }
 
-    void take(std::size_t count) {
-        count = std::min(count, text_.size() - at_);
-        out_.append(raw_, at_, count);
-        at_ += count;
+    /// Where a lexeme begins; the text's end if there is none.
+    std::size_t offset(std::size_t at) const { return at < code_.size() ? code_[at].offset : text_.size(); }
+
+    /// The text of some lexemes as written, with the comments between them.
+    std::string_view written(std::size_t begin, std::size_t end) const {
+        if (begin >= end) return {};
+        return text_.substr(code_[begin].offset, code_[end - 1].end() - code_[begin].offset);
     }
 
-    void take_space() {
-        while (at_ < text_.size() && is_space(text_[at_])) take(1);
+    /// Copies what is left of the text before this position.
+    void copy_to(std::size_t end) {
+        if (end > copied_) out_ += text_.substr(copied_, end - copied_);
+        copied_ = std::max(copied_, end);
     }
 
-    /// The position of the bracket that closes the one at `open`; the text's end if there is none.
+    /// Advances past lexeme `at`, and copies the text up to there.
+    void take_through(std::size_t at) {
+        at_ = std::min(at + 1, code_.size());
+        copy_to(at < code_.size() ? code_[at].end() : text_.size());
+    }
+
+    /// The index of the first lexeme from `begin` on that has this text; the code's size if there is none.
+    std::size_t find(std::string_view wanted, std::size_t begin) const {
+        return begin + index_of(wanted, code(begin, code_.size()));
+    }
+
+    /// The index of the bracket that closes the one at `open`; the code's size if there is none.
     std::size_t closing(std::size_t open) const {
         int depth = 0;
-        for (std::size_t i = open; i < text_.size(); ++i) {
-            if (text_[i] == '(' || text_[i] == '{') ++depth;
-            if ((text_[i] == ')' || text_[i] == '}') && --depth == 0) return i;
+        for (std::size_t i = open; i < code_.size(); ++i) {
+            if (text(i) == "(" || text(i) == "{") ++depth;
+            if ((text(i) == ")" || text(i) == "}") && --depth == 0) return i;
         }
-        return text_.size();
+        return code_.size();
     }
 
     std::size_t step(KernelStep::Kind kind, std::size_t where, std::string_view name, std::string_view text) {
-        const auto line = static_cast<std::size_t>(std::count(
-                              text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(where), '\n')) +
-                          1;
+        const auto line =
+            static_cast<std::size_t>(std::ranges::count(text_.substr(0, offset(where)), '\n')) + 1;
         steps_.push_back({kind, file_, line, std::string(name), on_one_line(text)});
         return steps_.size() - 1;
     }
@@ -159,38 +165,31 @@ class Tracer {
 
     /// Something at file scope: a struct, a function, a constant.
     void declaration() {
-        take_space();
-        const std::size_t end = text_.find_first_of(";{", at_);
-        if (end == std::string::npos) return take(text_.size());
-        const std::string_view head = std::string_view(text_).substr(at_, end - at_);
-        if (text_[end] == '{' && first_word(head) == "struct") return structure(head, end);
-        const std::size_t parenthesis = head.find('(');
-        if (text_[end] == '{' && parenthesis != std::string_view::npos &&
-            head.find('=') == std::string_view::npos)
+        std::size_t end = at_;
+        while (end < code_.size() && text(end) != ";" && text(end) != "{") ++end;
+        const Code head = code(at_, end);
+        if (text(end) == "{" && text(at_) == "struct") return structure(end);
+        const std::size_t parenthesis = index_of("(", head);
+        if (text(end) == "{" && parenthesis > 0 && parenthesis < head.size() &&
+            index_of("=", head) == head.size())
             return function(at_ + parenthesis, end);
-        if (text_[end] == '{') take(closing(end) - at_);
-        const std::size_t semicolon = text_.find(';', at_);
-        take(semicolon == std::string::npos ? text_.size() : semicolon + 1 - at_);
+        take_through(find(";", text(end) == "{" ? closing(end) : end));
     }
 
     /// Adds a function that notes a struct's members one by one.
-    void structure(std::string_view head, std::size_t open) {
-        const std::string name(last_word(head));
+    void structure(std::size_t open) {
+        const std::string_view name = text(open - 1);
         const std::size_t close = closing(open);
         std::string members;
-        const std::string body = text_.substr(open + 1, close > open ? close - open - 1 : 0);
-        std::size_t begin = 0;
-        for (std::size_t end; (end = body.find(';', begin)) != std::string::npos; begin = end + 1) {
-            const std::string_view member = std::string_view(body).substr(begin, end - begin);
-            if (member.find('[') != std::string_view::npos) continue;
-            for (const std::string_view part : parts_of(member)) {
-                const std::string_view called = last_word(part);
+        for (std::size_t begin = open + 1, end = 0; (end = find(";", begin)) < close; begin = end + 1) {
+            const Code member = code(begin, end);
+            if (index_of("[", member) < member.size()) continue;
+            for (const Code part : parts_of(member)) {
                 members += fmt::format(" candela_trace::note(number, (path + \".{0}\").c_str(), value.{0});",
-                                       called);
+                                       part.back().text);
             }
         }
-        const std::size_t semicolon = text_.find(';', close);
-        take(semicolon == std::string::npos ? text_.size() : semicolon + 1 - at_);
+        take_through(find(";", close));
         out_ += fmt::format(
             " [[maybe_unused]] static inline void note_members(int number, const std::string& path, const "
             "{}& value) {{{} }}",
@@ -198,73 +197,69 @@ class Tracer {
     }
 
     void function(std::size_t parenthesis, std::size_t open) {
-        const std::string name(last_word(std::string_view(text_).substr(at_, parenthesis - at_)));
-        const std::size_t close = closing(parenthesis), begin = at_;
-        const std::string arguments = text_.substr(parenthesis + 1, close - parenthesis - 1);
-        take(open + 1 - at_);
+        const std::string_view name = text(parenthesis - 1);
+        const std::size_t begin = at_, close = closing(parenthesis);
+        take_through(open);
         out_ += fmt::format(" const candela_trace::Function candela_function({});",
                             step(KernelStep::Kind::function, begin, name, name));
-        for (const std::string_view argument : parts_of(arguments)) {
-            const std::string_view called = last_word(argument);
-            note(step(KernelStep::Kind::argument, begin, called, argument), called);
+        for (const Code part : parts_of(code(parenthesis + 1, std::min(close, open)))) {
+            const std::string_view called = part.back().text;
+            const auto first = static_cast<std::size_t>(part.data() - code_.data());
+            note(step(KernelStep::Kind::argument, begin, called, written(first, first + part.size())),
+                 called);
         }
         const std::size_t end = closing(open);
         while (at_ < end) statement(end);
+        if (end < code_.size()) take_through(end);
     }
 
     /// Advances to the next statement of a function that ends at `end`.
     void statement(std::size_t end) {
-        take_space();
-        if (at_ >= end) return;
-        if (text_[at_] == '{' || text_[at_] == '}' || text_[at_] == ';') return take(1);
-        const std::string_view word = first_word(rest());
-        if (word == "else" || word == "do") return take(word.size());
-        if (word == "if" || word == "for" || word == "while") {
-            const std::size_t parenthesis = text_.find('(', at_);
-            return take((parenthesis == std::string::npos ? end : closing(parenthesis) + 1) - at_);
+        const std::string_view word = text(at_);
+        if (word == "{" || word == "}" || word == ";" || word == "else" || word == "do")
+            return take_through(at_);
+        if (word == "if" || word == "for" || word == "while")
+            return take_through(std::min(closing(find("(", at_)), end - 1));
+        const std::size_t begin = at_, semicolon = std::min(find(";", at_), end);
+        if (semicolon == end) return take_through(end - 1);
+        const Code statement = code(begin, semicolon);
+        if (word == "return" && statement.size() > 1) {
+            const std::size_t number =
+                step(KernelStep::Kind::result, begin, "return", written(begin, semicolon));
+            copy_to(offset(begin));
+            out_ += "return candela_trace::result(" + std::to_string(number) + ", (";
+            copied_ = code_[begin].end();
+            copy_to(offset(semicolon));
+            out_ += "))";
+            return take_through(semicolon);
         }
-        const std::size_t semicolon = std::min(text_.find(';', at_), end);
-        const std::string written = text_.substr(at_, semicolon - at_);
-        const std::size_t begin = at_;
-        if (word == "return" && !trimmed(std::string_view(written).substr(word.size())).empty()) {
-            const std::size_t number = step(KernelStep::Kind::result, begin, "return", written);
-            out_ +=
-                fmt::format("return candela_trace::result({}, ({}));", number, written.substr(word.size()));
-            at_ = semicolon + 1;
-            return;
-        }
-        if (is_declaration(written)) {
-            take(semicolon + 1 - at_);
-            for (const std::string_view part : parts_of(written)) {
-                const std::size_t equals = part.find('=');
-                if (equals == std::string_view::npos) continue;
-                const std::string_view name = last_word(part.substr(0, equals));
-                note(step(KernelStep::Kind::value, begin, name, written), name);
+        if (is_declaration(statement)) {
+            take_through(semicolon);
+            for (const Code part : parts_of(statement)) {
+                const std::size_t equals = index_of("=", part);
+                if (equals == 0 || equals == part.size()) continue;
+                const std::string_view name = part[equals - 1].text;
+                note(step(KernelStep::Kind::value, begin, name, written(begin, semicolon)), name);
             }
             return;
         }
-        const auto assignment = assignment_in(written);
-        if (!assignment) return take(semicolon + 1 - at_);
+        const auto assignment = assignment_in(statement);
+        if (!assignment) return take_through(semicolon);
         // Braces keep it a single statement after an `if`.
-        const std::string name(trimmed(std::string_view(written).substr(0, *assignment)));
+        const std::string name = on_one_line(written(begin, begin + *assignment));
+        copy_to(offset(begin));
         out_ += "{ ";
-        take(semicolon + 1 - at_);
-        note(step(KernelStep::Kind::value, begin, name, written), name);
+        take_through(semicolon);
+        note(step(KernelStep::Kind::value, begin, name, written(begin, semicolon)), name);
         out_ += " }";
     }
 
-    /// "vec3 r = …", "const float x = …", "float a, b".
-    static bool is_declaration(std::string_view written) {
-        const std::string_view first = first_word(written);
-        if (first.empty()) return false;
-        return !first_word(trimmed(written.substr(first.size()))).empty();
-    }
-
-    std::string raw_;   // as written
-    std::string text_;  // without comments and preprocessor lines, for parsing
+    std::string_view text_;
+    std::vector<kl::Lexeme> code_;
     std::string file_;
     std::vector<KernelStep>& steps_;
-    std::size_t at_ = 0;
+    std::size_t at_ = 0;      // of code_: what comes next
+    std::size_t copied_ = 0;  // of text_
     std::string out_;
 };
 

@@ -42,7 +42,7 @@ std::vector<ExportedModel> models_of(const ExportedScene& scene);
 void require_different_names(const ExportedScene& scene);
 
 /// A kernel's text, or any other C++ or GLSL, without comments.
-std::string without_comments(const std::string& text);
+std::string without_comments(std::string_view text);
 
 /// The paragraphs of `library` (separated by empty lines) that declare something used by `users` or by
 /// another needed paragraph, and those that declare nothing.
