@@ -148,7 +148,7 @@ nlohmann::json judged() {
     const std::vector<Trial> trials = trials_of(k_points);
     std::vector<AnswerCall> calls;
     for (const Trial& trial : trials)
-        calls.push_back({trial.call.name, kernel_inputs(trial.values), 3 * trial.call.outputs.size()});
+        calls.push_back({trial.call.name, kernel_parameters(trial.values), 3 * trial.call.outputs.size()});
     limit_compiling();
     try {
         const CompiledKernel compiled(answer_text(), KernelAuthor::anybody);

@@ -27,7 +27,7 @@ constexpr unsigned k_seconds = 3;  // of processor time, for work that takes mil
 constexpr int k_descriptor = 3;
 
 // The memory that the two processes share: words of 32 bits, integers or floats. First the numbers of inputs,
-// points and calls, then each call (its name's letters, its parameters, its tables, its number of results),
+// points and calls, then each call (its name's letters, its parameters, its number of results),
 // then the inputs, then room for the results.
 
 class Writer {
@@ -52,9 +52,7 @@ std::vector<std::uint32_t> message_for(const std::vector<AnswerCall>& calls, con
     for (const AnswerCall& call : calls) {
         writer.integer(call.name.size());
         for (const char c : call.name) writer.integer(static_cast<unsigned char>(c));
-        writer.numbers(call.inputs.parameters);
-        writer.integer(call.inputs.tables.size());
-        for (const std::vector<float>& table : call.inputs.tables) writer.numbers(table);
+        writer.numbers(call.parameters);
         writer.integer(call.arrays);
     }
     for (std::size_t a = 0; a < in.arrays(); ++a)
@@ -103,14 +101,9 @@ class Reader {
     std::size_t at_ = 0;
 };
 
-using Function = void (*)(const float* parameters, const float* const* tables, const int* table_sizes,
-                          int sample, std::size_t count, const float* const* in, float* const* out);
-
 struct Job {
-    Function function = nullptr;
+    KernelFunctionPointer function = nullptr;
     const float* parameters = nullptr;
-    std::vector<const float*> tables;
-    std::vector<int> sizes;
     std::vector<float*> out;
 };
 
@@ -158,15 +151,10 @@ void compute_answer(const char* library) {
         std::string name = "run_";
         for (std::size_t letters = reader.integer(); letters > 0; --letters)
             name += static_cast<char>(reader.integer());
-        job.function = reinterpret_cast<Function>(::dlsym(loaded, name.c_str()));
+        job.function = reinterpret_cast<KernelFunctionPointer>(::dlsym(loaded, name.c_str()));
         if (job.function == nullptr) ::_exit(k_cannot_be_loaded);
         const std::size_t parameters = reader.integer();
         job.parameters = reader.numbers(parameters);
-        for (std::size_t tables = reader.integer(); tables > 0; --tables) {
-            const std::size_t size = reader.integer();
-            job.sizes.push_back(static_cast<int>(size));
-            job.tables.push_back(reader.numbers(size));
-        }
         arrays.push_back(reader.integer());
     }
     std::vector<const float*> in;
@@ -175,8 +163,6 @@ void compute_answer(const char* library) {
         for (std::size_t a = 0; a < arrays[i]; ++a) jobs[i].out.push_back(reader.numbers(count));
     for (const int signal : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT}) ::signal(signal, SIG_DFL);
     confine(k_room, k_seconds);
-    for (const Job& job : jobs)
-        job.function(job.parameters, job.tables.data(), job.sizes.data(), 0, count, in.data(),
-                     job.out.data());
+    for (const Job& job : jobs) job.function(job.parameters, 0, count, in.data(), job.out.data());
     ::_exit(0);
 }

@@ -14,9 +14,9 @@ inline constexpr const char* k_compute_option = "--compute-answer";
 
 /// One call: the function, and the parameter values.
 struct AnswerCall {
-    std::string name;  // "reflect"
-    KernelInputs inputs;
-    std::size_t arrays = 0;  // of results
+    std::string name;               // "reflect"
+    std::vector<float> parameters;  // see kernel_parameters()
+    std::size_t arrays = 0;         // of results
 };
 
 struct ComputedAnswer {

@@ -16,54 +16,16 @@
 #include <system_error>
 #include <vector>
 
+#include "candela/kernel_language/calls.h"
+
 import candela.api;
 import candela.util;
 
 namespace fs = std::filesystem;
-using candela::Parameter;
-using candela::ParamType;
+namespace kl = candela::kernel_language;
 using candela::PluginKind;
 
 namespace {
-
-constexpr std::size_t k_slots = 9;  // floats per parameter, whatever its type
-
-/// Statements that fill the kernel's struct, whose members have the parameters' names (see KernelText).
-std::string members_from_parameters() {
-    std::string text;
-    const std::vector<Parameter>& parameters = subject_manifest().parameters;
-    for (std::size_t i = 0; i < parameters.size(); ++i) {
-        const Parameter& p = parameters[i];
-        const std::size_t at = k_slots * i;
-        switch (p.type) {
-            case ParamType::real:
-                text += fmt::format("    m.{} = p[{}];\n", p.name, at);
-                break;
-            case ParamType::integer:
-            case ParamType::boolean:
-            case ParamType::choice:
-                text += fmt::format("    m.{} = int(p[{}]);\n", p.name, at);
-                break;
-            case ParamType::text:
-                break;  // the kernel language has no strings
-            case ParamType::file:
-            case ParamType::numbers:
-                text += fmt::format(
-                    "    if (sizes[{1}] > 0) m.{0}.numbers = tables[{1}], m.{0}.count = sizes[{1}];\n",
-                    p.name, i);
-                break;
-            case ParamType::matrix:
-                text += fmt::format(
-                    "    m.{0} = transpose(mat3(vec3(p[{1}], p[{2}], p[{3}]), vec3(p[{4}], p[{5}], "
-                    "p[{6}]), vec3(p[{7}], p[{8}], p[{9}])));\n",
-                    p.name, at, at + 1, at + 2, at + 3, at + 4, at + 5, at + 6, at + 7, at + 8);
-                break;
-            default:
-                text += fmt::format("    m.{} = vec3(p[{}], p[{}], p[{}]);\n", p.name, at, at + 1, at + 2);
-        }
-    }
-    return text;
-}
 
 /// The arguments of one point's call, after the parameters, and the destination of its result; the arrays are
 /// those of batch.h.
@@ -79,11 +41,10 @@ std::string body_of(PluginKind kind) {
     const auto function = [](const std::string& name, const std::string& before, const std::string& call,
                              const std::string& after) {
         return fmt::format(
-            "extern \"C\" void run_{}(const float* p, const float* const* tables, const int* sizes, int "
-            "sample, "
-            "unsigned long count, const float* const* in, float* const* out) {{\n    PARAMETERS\n    for "
-            "(unsigned long i = 0; i < count; ++i) {{\n        {}    "
-            "    {}\n"
+            "extern \"C\" void run_{}(const float* parameters, [[maybe_unused]] int sample, unsigned long "
+            "count, "
+            "const float* const* in, float* const* out) {{\n    at = parameters;\n    const auto m = "
+            "make_parameters();\n    for (unsigned long i = 0; i < count; ++i) {{\n        {}        {}\n"
             "        {}    }}\n}}\n",
             name, before, call, after);
     };
@@ -96,17 +57,17 @@ std::string body_of(PluginKind kind) {
     switch (kind) {
         case PluginKind::reflection:
             return function("reflect", surface,
-                            fmt::format("const auto r = CALL(reflect, s, {});", three("in", in::k_light)),
+                            fmt::format("const auto r = call_reflect(m, s, {});", three("in", in::k_light)),
                             put(3, "r.diffuse * " + three("in", in::k_diffuse)) +
                                 put(6, "r.specular * " + three("in", in::k_specular))) +
-                   function("reflect_ambient", surface, "const auto r = CALL(reflect_ambient, s);",
+                   function("reflect_ambient", surface, "const auto r = call_reflect_ambient(m, s, 0);",
                             put(0, "r * " + three("in", in::k_diffuse)));
         case PluginKind::light:
             if (make<candela::Light>(default_values())->has_ambient()) {
-                return function("illuminate_ambient", receiver, "const auto r = CALL(illuminate_ambient, s);",
-                                put(0, "r"));
+                return function("illuminate_ambient", receiver,
+                                "const auto r = call_illuminate_ambient(m, s, sample);", put(0, "r"));
             }
-            return function("illuminate", receiver, "const auto r = SAMPLED(illuminate, s);",
+            return function("illuminate", receiver, "const auto r = call_illuminate(m, s, sample);",
                             put(0, "r.to_light") + put(3, "r.diffuse") + put(6, "r.specular"));
         case PluginKind::shading: {
             std::string point = fmt::format(
@@ -114,17 +75,17 @@ std::string body_of(PluginKind kind) {
                 three("in", in::k_normal), three("in", in::k_vertex_normal), three("in", in::k_barycentric),
                 in::k_uv, in::k_uv + 1, three("in", in::k_dpdu), three("in", in::k_dpdv));
             if (!make<candela::ShadingModel>(default_values())->needs().triangle)
-                return function("normals", point, "const auto r = CALL(normal, s);", put(0, "r"));
+                return function("normals", point, "const auto r = call_normal(m, s, 0);", put(0, "r"));
             std::string corners;
             for (const std::size_t first : {in::k_corner_positions, in::k_corner_normals}) {
                 for (std::size_t k = 0; k < 3; ++k)
                     corners += (corners.empty() ? "" : ", ") + three("in", first + 3 * k);
             }
             point += fmt::format("Triangle t{{{}}};\n", corners);
-            return function("normals", point, "const auto r = CALL(normal, s, t);", put(0, "r"));
+            return function("normals", point, "const auto r = call_normal(m, s, t);", put(0, "r"));
         }
         default:
-            return function("position", "", "const auto r = CALL(position, in[0][i], in[1][i]);",
+            return function("position", "", "const auto r = call_position(m, in[0][i], in[1][i]);",
                             put(0, "r"));
     }
 }
@@ -132,38 +93,18 @@ std::string body_of(PluginKind kind) {
 /// The code that the kit adds to the kernel's text, as compiler messages name it.
 constexpr const char* k_calls_file = "the kit's calls of it";
 
-/// The whole program. Functions are passed the parameters first, or not at all, and the sample's number last,
-/// if they take it.
+/// The whole program.
 std::string source(const std::string& kernel_text) {
-    const candela::KernelText& kernel = subject().kernel;
-    const std::string parameters = kernel.parameters;
-    const bool is_prepared = std::ranges::any_of(
-        kernel.functions,
-        [](const candela::KernelFunction& function) { return std::string_view(function.name) == "prepare"; });
-    const std::string constants = is_prepared ? fmt::format("{}_prepare(m)", kernel.prefix) : "m";
-    const std::string filled =
-        parameters.empty()
-            ? std::string("const int m = 0; (void)m; (void)p; (void)tables; (void)sizes; (void)sample;")
-            : fmt::format(
-                  "(void)p; (void)tables; (void)sizes; (void)sample; const auto m = [&] {{ {} m;\n{} return "
-                  "{}; }}();",
-                  parameters, members_from_parameters(), constants);
-    const std::string text = fmt::format(
+    std::string text = fmt::format(
         "#include \"candela/kernel/kernel.h\"\n"
         "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"
-        "namespace candela::kernel {{\n#line 1 \"{}\"\n{}\n#line 1 \"{}\"\n}}\n"
-        "using namespace candela::kernel;\n"
-        "#define CALL(name, ...) [&](auto m_, auto... a) {{ \\\n"
-        "    if constexpr (requires {{ {}_##name(m_, a...); }}) return {}_##name(m_, a...); \\\n"
-        "    else return {}_##name(a...); }}(m, __VA_ARGS__)\n"
-        "#define SAMPLED(name, s) [&](auto m_, auto a) {{ \\\n"
-        "    if constexpr (requires {{ {}_##name(m_, a, sample); }}) return {}_##name(m_, a, sample); \\\n"
-        "    else return CALL(name, a); }}(m, s)\n",
-        kernel_file_name(), kernel_text, k_calls_file, kernel.prefix, kernel.prefix, kernel.prefix,
-        kernel.prefix, kernel.prefix);
-    std::string body = body_of(subject_manifest().kind);
-    for (std::size_t at; (at = body.find("PARAMETERS")) != std::string::npos;) body.replace(at, 10, filled);
-    return text + body;
+        "namespace candela::kernel {{\n#line 1 \"{}\"\n{}\n#line 1 \"{}\"\n}}\n{}{}",
+        kernel_file_name(), kernel_text, k_calls_file, kl::kernel_reading(),
+        kl::kernel_parameters_reader("make_parameters", subject()));
+    for (const char* const function :
+         {"reflect", "reflect_ambient", "illuminate", "illuminate_ambient", "normal", "position"})
+        text += kl::kernel_caller(fmt::format("call_{}", function), subject(), function);
+    return text + body_of(subject_manifest().kind);
 }
 
 /// The lines that `is_wanted` accepts, few enough to read.
@@ -179,19 +120,6 @@ std::string lines_of(const std::string& log, const std::function<bool(const std:
         ++shown;
     }
     return result;
-}
-
-std::vector<float> runtime(const Values& values) {
-    std::vector<float> slots;
-    const auto all = values.set.runtime(candela::ColorEncoding::none);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const ParamType type = subject_manifest().parameters[i].type;
-        const bool is_whole =
-            type == ParamType::integer || type == ParamType::boolean || type == ParamType::choice;
-        slots.insert(slots.end(), std::begin(all[i].number), std::end(all[i].number));
-        if (is_whole) slots[slots.size() - k_slots] = static_cast<float>(all[i].integer);
-    }
-    return slots;
 }
 
 std::shared_ptr<candela::Instance> instance_of(const Values& values) {
@@ -220,14 +148,13 @@ fs::path sdk_include_directory() {
     return {};
 }
 
-KernelInputs kernel_inputs(const Values& values) {
-    KernelInputs inputs{.parameters = runtime(values), .tables = {}};
+std::vector<float> kernel_parameters(const Values& values) {
+    std::vector<candela::ParamValue> all = values.set.runtime(candela::ColorEncoding::none);
     const auto instance = instance_of(values);
-    for (std::size_t i = 0; i < subject_manifest().parameters.size(); ++i) {
-        const std::span<const float> table = instance->table(i);
-        inputs.tables.emplace_back(table.begin(), table.end());
-    }
-    return inputs;
+    for (const std::size_t i : subject().kernel.members) all[i].list = instance->table(i);
+    std::vector<float> numbers;
+    kl::append_parameters(subject(), all, numbers);
+    return numbers;
 }
 
 CompiledKernel::CompiledKernel(const std::string& text, KernelAuthor author) {
@@ -276,26 +203,20 @@ KernelProgram::KernelProgram() try : compiled_(subject().kernel.text, KernelAuth
     FAIL("the compiled kernel cannot be loaded: " << problem.what());
 }
 
-KernelProgram::Function KernelProgram::function(const std::string& name) const {
+KernelFunctionPointer KernelProgram::function(const std::string& name) const {
     const std::string symbol = "run_" + name;
     if (!library_.has(symbol)) FAIL("the kernel has no function for " << name);
-    return &library_.get<std::remove_pointer_t<Function>>(symbol);
+    return &library_.get<std::remove_pointer_t<KernelFunctionPointer>>(symbol);
 }
 
 void KernelProgram::run(const std::string& call, const Values& values, int sample, const Arrays& in,
                         Arrays& out) const {
-    const KernelInputs inputs = kernel_inputs(values);
-    std::vector<const float*> tables, from;
-    std::vector<int> sizes;
-    for (const std::vector<float>& table : inputs.tables) {
-        tables.push_back(table.data());
-        sizes.push_back(static_cast<int>(table.size()));
-    }
+    const std::vector<float> parameters = kernel_parameters(values);
+    std::vector<const float*> from;
     std::vector<float*> to;
     for (std::size_t a = 0; a < in.arrays(); ++a) from.push_back(in[a]);
     for (std::size_t a = 0; a < out.arrays(); ++a) to.push_back(out[a]);
-    function(call)(inputs.parameters.data(), tables.data(), sizes.data(), sample, in.count(), from.data(),
-                   to.data());
+    function(call)(parameters.data(), sample, in.count(), from.data(), to.data());
 }
 
 candela::Vec3 KernelProgram::position(const Values& values, float u, float v) const {

@@ -42,12 +42,13 @@ class CompiledKernel {
     std::string warnings_, unused_;
 };
 
-/// The inputs of a compiled kernel's functions in addition to the points.
-struct KernelInputs {
-    std::vector<float> parameters;
-    std::vector<std::vector<float>> tables;  // by parameter
-};
-KernelInputs kernel_inputs(const Values& values);
+/// The parameters of a compiled kernel's functions, as they read them (kernel_parameters_reader()).
+std::vector<float> kernel_parameters(const Values& values);
+
+/// How its functions are called: with the parameters, a light's sample, the number of points, the inputs and
+/// the outputs, number by number as in Arrays.
+using KernelFunctionPointer = void (*)(const float* parameters, int sample, std::size_t count,
+                                       const float* const* in, float* const* out);
 
 /// The text as C++: `run` computes the same as the plugin's call of that name, one point after another.
 class KernelProgram {
@@ -64,9 +65,7 @@ class KernelProgram {
     candela::Vec3 position(const Values& values, float u, float v) const;
 
   private:
-    using Function = void (*)(const float* parameters, const float* const* tables, const int* table_sizes,
-                              int sample, std::size_t count, const float* const* in, float* const* out);
-    Function function(const std::string& name) const;
+    KernelFunctionPointer function(const std::string& name) const;
 
     CompiledKernel compiled_;
     boost::dll::shared_library library_;
