@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "candela/kernel_language/calls.h"
+#include "candela/kernel_language/compiler.h"
 
 import candela.api;
 import candela.util;
@@ -107,19 +108,11 @@ std::string source(const std::string& kernel_text) {
     return text + body_of(subject_manifest().kind);
 }
 
-/// The lines that `is_wanted` accepts, few enough to read.
-std::string lines_of(const std::string& log, const std::function<bool(const std::string&)>& is_wanted) {
-    std::istringstream lines(log);
-    lines.exceptions(std::ios::badbit);  // otherwise std::getline() swallows std::bad_alloc, and the rest is
-                                         // lost
-    std::string result;
-    int shown = 0;
-    for (std::string line; std::getline(lines, line) && shown < 4;) {
-        if (!is_wanted(line)) continue;
-        result += "\n" + line;
-        ++shown;
-    }
-    return result;
+/// The lines of a compiler's log that are wanted, few enough to read, each after a line break.
+std::string shown_lines(const std::string& log, const std::function<bool(const std::string&)>& is_wanted) {
+    std::string shown;
+    for (const std::string& line : kl::lines_of(log, 4, is_wanted)) shown += "\n" + line;
+    return shown;
 }
 
 std::shared_ptr<candela::Instance> instance_of(const Values& values) {
@@ -139,15 +132,6 @@ std::shared_ptr<candela::Instance> instance_of(const Values& values) {
 
 std::string kernel_file_name() { return subject_manifest().name + ".kernel"; }
 
-fs::path sdk_include_directory() {
-    std::error_code problem;
-    for (fs::path above = fs::read_symlink("/proc/self/exe", problem).parent_path();
-         above.has_relative_path(); above = above.parent_path()) {
-        if (fs::exists(above / "include/candela/kernel/kernel.h", problem)) return above / "include";
-    }
-    return {};
-}
-
 std::vector<float> kernel_parameters(const Values& values) {
     std::vector<candela::ParamValue> all = values.set.runtime(candela::ColorEncoding::none);
     const auto instance = instance_of(values);
@@ -160,32 +144,33 @@ std::vector<float> kernel_parameters(const Values& values) {
 CompiledKernel::CompiledKernel(const std::string& text, KernelAuthor author) {
     const auto compiler = candela::cxx_compiler();
     if (!compiler) SKIP("no C++ compiler is installed");
-    const fs::path include = sdk_include_directory();
+    const fs::path include = kl::kernel_headers();
     if (include.empty()) SKIP("Candela's headers are not installed with the kit");
     const fs::path file = folder_.path() / "kernel.cpp";
     std::ofstream(file) << source(text);
     // The process that loads it already contains what it needs from libraries.
-    std::vector<std::string> words{compiler->string(), "-std=c++20", "-O1",   "-fPIC",
-                                   "-shared",          "-nostdlib",  "-Wall", "-Wextra",
-                                   "-ffp-contract=off"};
+    std::vector<std::string> options{"-O1",   "-fPIC",   "-shared",          "-nostdlib",
+                                     "-Wall", "-Wextra", "-ffp-contract=off"};
     // Makes uninitialised local variables NaN; g++ 11 does not have this option.
     if (compiler->filename().string().find("clang") != std::string::npos)
-        words.emplace_back("-ftrivial-auto-var-init=pattern");
+        options.emplace_back("-ftrivial-auto-var-init=pattern");
     // An infinite loop must be detected; the compiler must not assume that it ends.
-    words.emplace_back("-fno-finite-loops");
+    options.emplace_back("-fno-finite-loops");
     // From overflow being undefined, a compiler would conclude that an index is in range.
-    if (author == KernelAuthor::anybody) words.insert(words.end(), {"-fwrapv", "-fstack-clash-protection"});
-    words.insert(words.end(), {"-isystem", include.string(), file.string(), "-o", library().string()});
-    const candela::ProgramOutput compiled = candela::run_program(words);
-    if (compiled.exit_code != 0) {
-        const std::string errors = lines_of(
-            compiled.err, [](const std::string& line) { return line.find("error") != std::string::npos; });
+    if (author == KernelAuthor::anybody)
+        options.insert(options.end(), {"-fwrapv", "-fstack-clash-protection"});
+    options.insert(options.end(), {"-isystem", include.string()});
+    const kl::CompilerReport report = kl::compile(
+        *compiler, {.options = options, .inputs = {file}, .output = library(), .temporary = folder_.path()});
+    if (!report.is_success) {
+        const std::string errors = shown_lines(
+            report.log, [](const std::string& line) { return line.find("error") != std::string::npos; });
         throw KernelRefused(fmt::format("the kernel's text does not compile as C++ ({}):{}",
                                         compiler->string(),
-                                        errors.empty() ? "\n" + compiled.err.substr(0, 400) : errors));
+                                        errors.empty() ? "\n" + report.log.substr(0, 400) : errors));
     }
     const auto warnings = [&](bool of_unused) {
-        return lines_of(compiled.err, [&](const std::string& line) {
+        return shown_lines(report.log, [&](const std::string& line) {
             const bool is_unused = line.find("[-Wunused") != std::string::npos;
             return line.find(": warning: ") != std::string::npos &&
                    line.starts_with(kernel_file_name() + ":") && is_unused == of_unused;

@@ -11,9 +11,6 @@
 #include "batch.h"
 #include "sandbox/temporary_folder.h"
 
-/// The folder that contains candela/kernel/kernel.h, above the kit's own; empty if there is none.
-std::filesystem::path sdk_include_directory();
-
 /// "cel.kernel": the name of the plugin's kernel text in messages, which count its lines.
 std::string kernel_file_name();
 

@@ -1,8 +1,8 @@
 // Compiles plugins at run time.
 #include "binding.h"
 
+#include "candela/kernel_language/compiler.h"
 #include "candela/kernel_language/language.h"
-#include "inspect/kernel_compiler.h"
 #include "module.h"
 
 import candela.plugins;
@@ -15,33 +15,26 @@ namespace {
 namespace fs = std::filesystem;
 
 std::vector<std::string> options_for(const std::string& name, const fs::path& folder) {
-    const fs::path core = plugin_search_path({}).back().parent_path().parent_path() / CANDELA_CORE_FILE;
-    std::vector<std::string> options{
-        "-std=c++20",
-        "-O3",
-        "-fPIC",
-        "-shared",
-        "-fvisibility=hidden",
-        "-fno-math-errno",
-        "-fno-trapping-math",
-        "-fwrapv",  // defines integer overflow in kernels
-        "-fstack-clash-protection",
+    return {"-O3",
+            "-fPIC",
+            "-shared",
+            "-fvisibility=hidden",
+            "-fno-math-errno",
+            "-fno-trapping-math",
+            "-fwrapv",  // defines integer overflow in kernels
+            "-fstack-clash-protection",
 #ifdef __x86_64__
-        "-mprefer-vector-width=512",
+            "-mprefer-vector-width=512",
 #endif
-        "-w",
-        fmt::format("-DCANDELA_PLUGIN_NAME=\"{}\"", name),
-        "-DCANDELA_PLUGIN_VERSION=\"0\"",
-        fmt::format("-DCANDELA_KERNEL_FILE=\"{}\"", (folder / (name + ".kernel")).string()),
-        "-I",
-        kernel_headers().string(),
-        "-I",
-        folder.string()};
-    options.push_back((folder / (name + ".cpp")).string());
-    options.push_back(core.string());
-    options.push_back("-Wl,--version-script=" + (folder / "plugin.map").string());
-    options.insert(options.end(), {"-o", (folder / fmt::format("reflection-{}.so", name)).string()});
-    return options;
+            "-w",
+            fmt::format("-DCANDELA_PLUGIN_NAME=\"{}\"", name),
+            "-DCANDELA_PLUGIN_VERSION=\"0\"",
+            fmt::format("-DCANDELA_KERNEL_FILE=\"{}\"", (folder / (name + ".kernel")).string()),
+            "-I",
+            kernel_language::kernel_headers().string(),
+            "-I",
+            folder.string(),
+            "-Wl,--version-script=" + (folder / "plugin.map").string()};
 }
 
 /// Removes the temporary folder, which users do not know, from a compiler's message.
@@ -59,17 +52,21 @@ void compile_plugin(const std::string& name, const fs::path& folder) {
     if (!compiler)
         throw Error(ErrorCategory::failure,
                     "a kernel needs a C++ compiler, and none is installed (packages g++ or clang)");
-    std::error_code problem;
-    if (!fs::exists(kernel_headers() / "candela/reflection_plugin.h", problem))
+    if (kernel_language::kernel_headers().empty())
         throw Error(ErrorCategory::failure,
                     "a kernel needs Candela's headers, which are not installed (package candela-dev)");
-    const ProgramOutput compiled = run_kernel_compiler(*compiler, options_for(name, folder), folder);
-    if (compiled.exit_code != 0) {
+    const fs::path library = folder / fmt::format("reflection-{}.so", name);
+    const fs::path core = plugin_search_path({}).back().parent_path().parent_path() / CANDELA_CORE_FILE;
+    const kernel_language::CompilerReport report =
+        kernel_language::compile(*compiler, {.options = options_for(name, folder),
+                                             .inputs = {folder / (name + ".cpp"), core},
+                                             .output = library,
+                                             .temporary = folder});
+    if (!report.is_success) {
         throw Error(ErrorCategory::bad_request,
                     fmt::format("{} could not compile the kernel: {}", compiler->filename().string(),
-                                without(folder, first_error(compiled.err))));
+                                without(folder, kernel_language::first_error(report.log))));
     }
-    const fs::path library = folder / fmt::format("reflection-{}.so", name);
     const Manifest manifest = manifest_of(load_plugin(library, nullptr), host_abi());
     OutputFile file(fs::path(library).replace_extension(".json"), Existing::replaced);
     file.write(to_json(manifest));

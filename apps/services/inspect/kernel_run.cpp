@@ -14,11 +14,12 @@
 #include <system_error>
 #include <utility>
 
-#include "inspect/kernel_compiler.h"
+#include "candela/kernel_language/compiler.h"
 
 import candela.util;
 
 namespace fs = std::filesystem;
+namespace kl = candela::kernel_language;
 using candela::Error;
 using candela::ErrorCategory;
 using candela::PluginDescriptor;
@@ -68,9 +69,9 @@ KernelRunner::KernelRunner(std::vector<const PluginDescriptor*> plugins, fs::pat
 
 void KernelRunner::prepare() {
     if (std::exchange(is_prepared_, true)) return;
-    const fs::path include = kernel_headers();
+    const fs::path include = kl::kernel_headers();
     std::error_code problem;
-    if (!fs::exists(include / "candela/kernel/kernel.h", problem)) {
+    if (include.empty()) {
         why_not_ =
             "the kernels' steps are left out: Candela's headers are not installed (package "
             "candela-dev)";
@@ -105,14 +106,15 @@ bool KernelRunner::compile(const fs::path& folder) {
         return false;
     }
     // The compiler searches this folder before that of kernel.h, for "candela/kernel/prelude.kernel".
-    const candela::ProgramOutput compiled = run_kernel_compiler(
-        *program,
-        {"-std=c++20", "-O0", "-w", "-fno-math-errno", "-ffp-contract=off", "-I", folder.string(), "-I",
-         kernel_headers().string(), (folder / "kernels.cpp").string(), "-o", (folder / "kernels").string()},
-        folder_.path());
-    if (compiled.exit_code == 0) return true;
+    const kl::CompilerReport report =
+        kl::compile(*program, {.options = {"-O0", "-w", "-fno-math-errno", "-ffp-contract=off", "-I",
+                                           folder.string(), "-I", kl::kernel_headers().string()},
+                               .inputs = {folder / "kernels.cpp"},
+                               .output = folder / "kernels",
+                               .temporary = folder_.path()});
+    if (report.is_success) return true;
     why_not_ = fmt::format("the kernels' steps are left out: {} could not compile them: {}",
-                           program->filename().string(), first_error(compiled.err));
+                           program->filename().string(), kl::first_error(report.log));
     return false;
 }
 

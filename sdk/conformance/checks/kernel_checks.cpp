@@ -12,6 +12,7 @@
 
 #include "agreement.h"
 #include "batch.h"
+#include "candela/kernel_language/compiler.h"
 #include "kernel_program.h"
 #include "sandbox/temporary_folder.h"
 
@@ -140,7 +141,7 @@ TEST_CASE("kernel as GLSL: the text compiles as GLSL 3.30 and as GLSL ES 3.00",
     skip_without_kernel();
     const auto validator = candela::program_called("glslangValidator");
     if (!validator) SKIP("glslangValidator is not installed");
-    const std::filesystem::path include = sdk_include_directory();
+    const std::filesystem::path include = candela::kernel_language::kernel_headers();
     if (include.empty()) SKIP("Candela's headers are not installed with the kit");
     std::string prelude;
     for (const char* const part : {"candela/kernel/table.glsl", "candela/kernel/prelude.kernel"}) {
