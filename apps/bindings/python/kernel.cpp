@@ -1,6 +1,12 @@
 // Compiles plugins at run time.
 #include "binding.h"
 
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <variant>
+
 #include "candela/kernel_language/compiler.h"
 #include "candela/kernel_language/language.h"
 #include "module.h"
@@ -73,14 +79,57 @@ void compile_plugin(const std::string& name, const fs::path& folder) {
     file.finish();
 }
 
-/// Translates a kernel to C++; throws Error if it is not in the kernel language.
-std::string kernel_as_cpp(const std::string& source, const std::string& file) {
+/// Throws Error if the text is not in the kernel language.
+kernel_language::Kernel kernel_from(const std::string& source, const std::string& file) {
     try {
-        return kernel_language::emitted(kernel_language::read_kernel({file, source}),
-                                        kernel_language::Emission::guarded_cpp);
+        return kernel_language::read_kernel({file, source});
     } catch (const kernel_language::Problem& problem) {
         throw Error(ErrorCategory::bad_request, problem.text());
     }
+}
+
+std::string kernel_as_cpp(const std::string& source, const std::string& file) {
+    return kernel_language::emitted(kernel_from(source, file), kernel_language::Emission::guarded_cpp);
+}
+
+void add_members_read(const std::vector<kernel_language::Expression>& expressions,
+                      std::set<std::string>& names) {
+    for (const kernel_language::Expression& expression : expressions) {
+        if (expression.kind == kernel_language::Expression::Kind::member) names.insert(expression.text);
+        add_members_read(expression.operands, names);
+    }
+}
+
+void add_members_read(const std::vector<kernel_language::Statement>& statements,
+                      std::set<std::string>& names) {
+    for (const kernel_language::Statement& statement : statements) {
+        add_members_read(statement.expressions, names);
+        add_members_read(statement.statements, names);
+    }
+}
+
+/// The declarations of a kernel: its structs' members, its functions with the types of their parameters, and
+/// the names of the members that they read.
+struct KernelDeclarations {
+    std::map<std::string, std::vector<std::pair<std::string, std::string>>> structs;
+    std::vector<std::tuple<std::string, std::string, std::vector<std::string>>> functions;
+    std::set<std::string> members_read;
+};
+
+KernelDeclarations kernel_declarations(const std::string& source, const std::string& file) {
+    KernelDeclarations all;
+    for (const kernel_language::Declaration& declaration : kernel_from(source, file).declarations) {
+        if (const auto* const structure = std::get_if<kernel_language::Structure>(&declaration)) {
+            auto& members = all.structs[structure->name];
+            for (const auto& member : structure->members) members.emplace_back(member.type.name, member.name);
+        } else if (const auto* const function = std::get_if<kernel_language::Function>(&declaration)) {
+            std::vector<std::string> types;
+            for (const auto& parameter : function->parameters) types.push_back(parameter.type.name);
+            all.functions.emplace_back(function->result.name, function->name, std::move(types));
+            add_members_read(function->body, all.members_read);
+        }
+    }
+    return all;
 }
 
 }  // namespace
@@ -90,6 +139,12 @@ void add_kernel(py::module_& module) {
                py::call_guard<py::gil_scoped_release>(), "Makes a plugin from the files in a folder.");
     module.def("kernel_as_cpp", &kernel_as_cpp, py::arg("source"), py::arg("file"),
                "Translates a kernel, which must be in the kernel language, to C++.");
+    py::class_<KernelDeclarations>(module, "KernelDeclarations", "The declarations of a kernel.")
+        .def_readonly("structs", &KernelDeclarations::structs)
+        .def_readonly("functions", &KernelDeclarations::functions)
+        .def_readonly("members_read", &KernelDeclarations::members_read);
+    module.def("kernel_declarations", &kernel_declarations, py::arg("source"), py::arg("file"),
+               "Reads what a kernel, which must be in the kernel language, declares.");
 }
 
 }  // namespace candela::python

@@ -15,39 +15,34 @@ from .errors import RequestError
 from .instances import Reflection, reflection
 from .registry import Registry
 
-_MEMBER = re.compile(r"^\s*(float|int|vec3)\s+(\w+)\s*;", re.MULTILINE)
 _READS = {"tangent": "reads_tangent", "position": "reads_position", "uv": "reads_uv"}
 
 
-def _without_comments(source: str) -> str:
-    return re.sub(r"/\*.*?\*/", " ", re.sub(r"//[^\n]*", " ", source), flags=re.DOTALL)
-
-
 class _Kernel:
-    """The declarations in the text of a kernel."""
+    """The declarations of a kernel, as the plugin around it needs them."""
 
-    def __init__(self, source: str) -> None:
-        text = _without_comments(source)
-        reflect = re.search(r"\bKERNEL\s+Reflected\s+(\w+?)_reflect\s*\(\s*(?:(\w+)\s+\w+\s*,\s*)?Surface\s", text)
-        if not reflect:
+    def __init__(self, source: str, file: str) -> None:
+        declared = _candela.kernel_declarations(source, file)  # rejects text that is not in the language
+        function = next(((name, types) for result, name, types in declared.functions
+                         if result == "Reflected" and name.endswith("_reflect") and "Surface" in types[:2]), None)
+        if not function:
             raise RequestError("the kernel of a reflection model needs a function 'KERNEL Reflected NAME_reflect(Material m, Surface s, "
                                "vec3 to_light)', where Material is its struct of parameters; without parameters, omit the first "
                                "argument")
-        self.prefix, self.struct = reflect[1], reflect[2]
+        self.prefix = function[0].removesuffix("_reflect")
+        self.struct = function[1][0] if function[1][0] != "Surface" else None
         if not re.fullmatch(r"[a-z][a-z0-9_]*", self.prefix):
             raise RequestError(f"the name '{self.prefix}' of '{self.prefix}_reflect' is invalid; expected lower-case letters, digits and _")
         self.members: list[tuple[str, str]] = []
         if self.struct:
-            body = re.search(rf"\bstruct\s+{self.struct}\s*\{{(.*?)\}}", text, re.DOTALL)
-            if not body:
+            if self.struct not in declared.structs:
                 raise RequestError(f"{self.prefix}_reflect takes a '{self.struct}', which is not a struct in the kernel")
-            self.members = _MEMBER.findall(body[1])
-            rest = _MEMBER.sub("", body[1]).strip()
-            if rest:
-                raise RequestError(f"'{rest.splitlines()[0].strip()}' in struct {self.struct}: expected members of type float, "
-                                   "int or vec3, each on a line of its own")
-        self.has_ambient = re.search(rf"\b{self.prefix}_reflect_ambient\s*\(", text) is not None
-        self.reads = [flag for member, flag in _READS.items() if re.search(rf"\.{member}\b", text)]
+            self.members = declared.structs[self.struct]
+            for kind, name in self.members:
+                if kind not in ("float", "int", "vec3"):
+                    raise RequestError(f"'{kind} {name};' in struct {self.struct}: expected members of type float, int or vec3")
+        self.has_ambient = any(name == f"{self.prefix}_reflect_ambient" for _, name, _ in declared.functions)
+        self.reads = [flag for member, flag in _READS.items() if member in declared.members_read]
 
     @property
     def name(self) -> str:
@@ -83,8 +78,7 @@ def _compiled(source: str) -> tuple[str, Registry]:
     """The name of a kernel's model, and a registry that contains it."""
     named = re.search(r"\b(\w+?)_reflect\b", source)
     file = f"{named[1].replace('_', '-')}.kernel" if named else "kernel"
-    _candela.kernel_as_cpp(source, file)  # rejects text that is not in the language, or too long to parse
-    kernel = _Kernel(source)
+    kernel = _Kernel(source, file)
     text = kernel.kernel(source)
     # The translated text is compiled; programs are generated from the original text.
     compiled = _candela.kernel_as_cpp(text, file)

@@ -14,7 +14,7 @@ namespace candela::kernel_language {
 /// headers are not installed.
 std::filesystem::path kernel_headers();
 
-/// What to compile, as C++20.
+/// The C++20 to compile, and how.
 struct Compilation {
     std::vector<std::string> options{};
     std::vector<std::filesystem::path> inputs{};  // source files, then libraries
