@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "candela/target/literals.h"
+#include "candela/target/base64.h"
 #include "candela/target/textures.h"
 
 namespace candela::target {

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
+#include "candela/target/base64.h"
 #include "candela/target/building.h"
 #include "candela/target/files.h"
-#include "candela/target/literals.h"
 
 namespace candela::target {
 

@@ -1,5 +1,6 @@
 // Texts in generated programs and pages.
 #include "candela/target/literals.h"
+#include "candela/target/base64.h"
 
 #include <catch2/catch_test_macros.hpp>
 #include <cstddef>

@@ -4,6 +4,7 @@
 
 #include "candela/embed.h"
 #include "candela/target/arrays.h"
+#include "candela/target/base64.h"
 #include "candela/target/literals.h"
 #include "candela/target/text_template.h"
 #include "json/json.h"

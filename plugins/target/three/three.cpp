@@ -10,6 +10,7 @@
 
 #include "candela/embed.h"
 #include "candela/plugin_files.h"
+#include "candela/target/base64.h"
 #include "candela/target/files.h"
 #include "candela/target/literals.h"
 #include "candela/target/page_arrays.h"

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "candela/target/literals.h"
+#include "candela/target/base64.h"
 #include "mesh_io/bad_file.h"
 
 namespace mesh_io::gltf {

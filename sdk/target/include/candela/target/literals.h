@@ -41,10 +41,4 @@ std::string html_text(std::string_view text);
 /// Escapes JSON for a <script> of an HTML page, where "</script>" and "<!--" would end or change it.
 std::string script_json(std::string json);
 
-std::string base64(std::span<const std::byte> bytes);
-/// Appends the base64 to a text.
-void append_base64(std::span<const std::byte> bytes, std::string& text);
-/// The bytes that a base64 text encodes. Throws std::invalid_argument if it is malformed.
-std::string base64_decoded(std::string_view text);
-
 }  // namespace candela::target
