@@ -119,7 +119,7 @@ namespace {
 
 int run_and_report(const std::function<int()>& work) {
     std::set_terminate(end_without_memory);
-    const PrintableStreams streams;
+    const SanitizedStreams streams;
     try {
         const int code = work();
         std::cout.flush();

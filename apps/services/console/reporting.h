@@ -60,5 +60,5 @@ void report_refusals(const candela::Registry& registry);
 void report_replaced(const candela::Refusal& refused);
 
 /// Runs a program's work and returns its exit code. Reports on stderr what it throws, and a failure to write
-/// to standard output. Everything printed meanwhile passes through PrintableStreams.
+/// to standard output. Everything printed meanwhile passes through SanitizedStreams.
 int run_and_report(const std::function<int()>& work);

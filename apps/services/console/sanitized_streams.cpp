@@ -1,13 +1,14 @@
 #include "console/sanitized_streams.h"
 
 #include <cstddef>
+#include <cstdint>  // before <memory>, whose std::align depends on it
 #include <iostream>
 #include <new>
 #include <streambuf>
 #include <string>
 #include <string_view>
 
-class PrintableStreams::Filter final : public std::streambuf {
+class SanitizedStreams::Filter final : public std::streambuf {
   public:
     explicit Filter(std::streambuf& to) : to_(to) {}
 
@@ -46,13 +47,13 @@ class PrintableStreams::Filter final : public std::streambuf {
     std::string waiting_;
 };
 
-PrintableStreams::PrintableStreams()
+SanitizedStreams::SanitizedStreams()
     : out_(std::make_unique<Filter>(*std::cout.rdbuf())),
       err_(std::make_unique<Filter>(*std::cerr.rdbuf())),
       before_out_(std::cout.rdbuf(out_.get())),
       before_err_(std::cerr.rdbuf(err_.get())) {}
 
-PrintableStreams::~PrintableStreams() {
+SanitizedStreams::~SanitizedStreams() {
     std::cout.flush();
     std::cerr.flush();
     std::cout.rdbuf(before_out_);

@@ -9,12 +9,12 @@ import candela.util;
 /// While an instance exists, everything printed through std::cout and std::cerr passes through
 /// candela::printable(): valid UTF-8 without terminal control sequences. Line breaks are kept. print_styled()
 /// writes coloured text.
-class PrintableStreams {
+class SanitizedStreams {
   public:
-    PrintableStreams();
-    PrintableStreams(const PrintableStreams&) = delete;
-    PrintableStreams& operator=(const PrintableStreams&) = delete;
-    ~PrintableStreams();
+    SanitizedStreams();
+    SanitizedStreams(const SanitizedStreams&) = delete;
+    SanitizedStreams& operator=(const SanitizedStreams&) = delete;
+    ~SanitizedStreams();
 
   private:
     class Filter;
