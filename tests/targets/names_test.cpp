@@ -160,7 +160,7 @@ TEST_CASE("names: a page contains hostile names as complete data, and no part of
     }
 }
 
-TEST_CASE("names: in programs, ASCII names stay, and letters of other alphabets are transliterated") {
+TEST_CASE("names: in programs, ASCII names stay, Latin letters are transliterated, and others are _") {
     const fs::path directory = scratch_directory();
     const fs::path scene = write_file(directory / "scene.toml", R"(version = 1
 observer = {position = [0, 0, 4], look_at = [0, 0, 0]}
@@ -180,8 +180,7 @@ object = [
     for (const std::string& target : {std::string("cpp"), std::string("opengl")}) {
         generate(target, scene, directory / target);
         const std::string source = read_file(directory / target / "scene.cpp");
-        for (const std::string& name :
-             {"// lamp\n", "// Weisse Lampe\n", "Groesse", "Basi", "shar", "_ ball"}) {
+        for (const std::string& name : {"// lamp\n", "// Weisse Lampe\n", "Groesse", "____", "_ ball"}) {
             INFO(target << ": " << name);
             CHECK(source.find(name) != std::string::npos);
         }
