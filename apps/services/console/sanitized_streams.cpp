@@ -1,7 +1,6 @@
 #include "console/sanitized_streams.h"
 
 #include <cstddef>
-#include <cstdint>  // before <memory>, whose std::align depends on it
 #include <iostream>
 #include <new>
 #include <streambuf>

@@ -1,6 +1,7 @@
 // Makes everything that the command prints safe to print.
 #pragma once
 
+#include <cstdint>  // before <memory>, whose std::align depends on it
 #include <iosfwd>
 #include <memory>
 
