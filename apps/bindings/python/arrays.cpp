@@ -51,8 +51,7 @@ struct AddLoop {
 
 }  // namespace
 
-Vectors::Vectors(const Floats& array, const char* name)
-    : data_(reinterpret_cast<const char*>(array.data())), count_(0), step_(0), channel_(0) {
+Vectors::Vectors(const Floats& array, const char* name) : data_(reinterpret_cast<const char*>(array.data())) {
     if (array.ndim() != 2 || array.shape(1) != 3)
         throw py::value_error(fmt::format("{} must have the shape (N, 3)", name));
     count_ = static_cast<std::size_t>(array.shape(0));
@@ -97,7 +96,7 @@ Results::Results(std::size_t count, Layout layout)
 template <class... Terms>
 void Results::write_rows(std::size_t first, std::size_t count, Terms... terms) noexcept {
     float* const rows = channel(first, 0);
-    prefetch<true>(rows + 3 * count, count, static_cast<std::size_t>(array_.shape(0)) - first - count);
+    prefetch<true>(rows + 3 * count, count, static_cast<std::size_t>(array_.size()) / 3 - first - count);
     multiversion<PutTogetherLoop>(count, rows, terms...);
 }
 

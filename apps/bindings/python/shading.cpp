@@ -76,7 +76,8 @@ Floats normals_at(const Shading& model, const std::array<Floats, 3>& triangles,
                     triangle_of(positions, normals, first, count, position_buffers, normal_buffers);
                 const ConstVec3Span barycentric = weights.read(first, count, weight);
                 const ConstVec3Span at = coordinates.read(first, count, coordinate);
-                interpolate(triangle, barycentric, count, face.span(), vertex.span());
+                if (barycentric.x != nullptr)  // always, which clang-tidy does not see
+                    interpolate(triangle, barycentric, count, face.span(), vertex.span());
                 model.guarded([&](const ShadingModel& instance) {
                     instance.normals({.count = count,
                                       .face_normal = face.span(),
