@@ -23,7 +23,7 @@ follow_build() {
 configure=()
 if [ ! -f "$root/build/release/build.ninja" ]; then
     configure=(-DCANDELA_TESTS=OFF)
-    echo "render: building, which takes some four minutes on two cores (log: $log)" >&2
+    echo "render: building, which takes two to three minutes on two cores (log: $log)" >&2
 fi
 if ! { cmake -S "$root" --preset release "${configure[@]}" && cmake --build "$root/build/release" --target candela_rendering; } 2>&1 |
     follow_build >"$log"; then
