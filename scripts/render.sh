@@ -25,7 +25,11 @@ if [ ! -f "$root/build/release/build.ninja" ]; then
     configure=(-DCANDELA_TESTS=OFF)
     echo "render: building, which takes two to three minutes on two cores (log: $log)" >&2
 fi
-if ! { cmake -S "$root" --preset release "${configure[@]}" && cmake --build "$root/build/release" --target candela_rendering; } 2>&1 |
+# A program built earlier must not be left behind the core that it is linked to.
+target=candela_rendering
+programs=$root/build/release/lib/candela
+{ [ ! -e "$programs/candela-verbs" ] && [ ! -e "$programs/candela-diff" ]; } || target=candela_runtime
+if ! { cmake -S "$root" --preset release "${configure[@]}" && cmake --build "$root/build/release" --target "$target"; } 2>&1 |
     follow_build >"$log"; then
     tail -n 30 "$log" >&2
     echo "render: the build failed; see $log" >&2
