@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdlib>
 #include <iostream>
 #include <span>
@@ -26,8 +25,10 @@
 #include "programs/sibling_program.h"
 
 #ifdef CANDELA_ALL_VERBS
+constexpr bool k_has_all_verbs = true;
 #define ELSEWHERE(run) run
 #else
+constexpr bool k_has_all_verbs = false;
 #define ELSEWHERE(run) nullptr
 #endif
 
@@ -64,9 +65,6 @@ constexpr std::array k_verbs = {
     Verb{"schema", "print the scene file's JSON Schema or reference", ELSEWHERE(run_schema)},
 };
 
-constexpr bool k_is_missing_verbs =
-    std::ranges::any_of(k_verbs, [](const Verb& verb) { return verb.run == nullptr; });
-
 std::string help() {
     std::string text =
         wrapped("Candela renders scenes whose lights, shapes, shading and reflection models are plugins.", 0,
@@ -99,11 +97,12 @@ void choose_instruction_set() {
 
 /// Whether a command line is for candela-verbs, and this is not it.
 bool is_for_all_verbs(const std::vector<std::string>& arguments) {
-    const std::size_t at = arguments.size() > 1 && arguments.front() == "help" ? 1 : 0;
-    if (arguments.size() == at) return false;
-    if (arguments[at] == k_task) return k_is_missing_verbs;
-    return std::ranges::any_of(
-        k_verbs, [&](const Verb& verb) { return verb.run == nullptr && verb.name == arguments[at]; });
+    if (k_has_all_verbs || arguments.empty()) return false;
+    const bool asks_for_help = arguments.size() > 1 && arguments.front() == "help";
+    const std::string& name = arguments[asks_for_help ? 1 : 0];
+    return name == k_task || std::ranges::any_of(k_verbs, [&](const Verb& verb) {
+               return verb.run == nullptr && verb.name == name;
+           });
 }
 
 int run(const std::vector<std::string>& arguments) {
@@ -118,10 +117,8 @@ int run(const std::vector<std::string>& arguments) {
         return 0;
     }
     std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
-#ifdef CANDELA_ALL_VERBS  // others do not link journals
     if (name == k_task && rest.size() > 1)
         return with_journal(rest.front(), [&] { return run({rest.begin() + 1, rest.end()}); });
-#endif
     if (name == "--help" || name == "-h" || (name == "help" && rest.empty())) {
         std::cout << help();
         return 0;
@@ -163,10 +160,11 @@ bool complete_verb(const std::vector<std::string>& arguments, std::span<const Ve
 }
 
 int main(int argc, char** argv) {
-    const std::vector<std::string> arguments(argv + 1, argv + argc);
-    if (is_for_all_verbs(words_to_complete(arguments)))
-        return run_and_report([&]() -> int { exec_sibling(all_verbs(), arguments); });
     prepare_for_signals();
     keep_freed_memory();
-    return run_and_report([&] { return run(words_to_complete(arguments)); });
+    return run_and_report([&] {
+        const std::vector<std::string> arguments(argv + 1, argv + argc), words = words_to_complete(arguments);
+        if (is_for_all_verbs(words)) exec_sibling(all_verbs(), arguments);
+        return run(words);
+    });
 }

@@ -177,9 +177,10 @@ const std::string& contents_of(const std::string& stream) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' cannot be read: {}", stream, std::strerror(errno)));
     };
-    const candela::FileDescriptor opened(stream == "-" ? -1 : ::open(stream.c_str(), O_RDONLY | O_CLOEXEC));
-    if (stream != "-" && !opened.is_open()) fail();
-    const int descriptor = stream == "-" ? STDIN_FILENO : opened.number();
+    const bool is_input = stream == "-";
+    const candela::FileDescriptor opened(is_input ? -1 : ::open(stream.c_str(), O_RDONLY | O_CLOEXEC));
+    const int descriptor = is_input ? STDIN_FILENO : opened.number();
+    if (descriptor < 0) fail();
     std::vector<char> part(65536);  // on the stack it would cost pages even without a stream
     while (text->second.size() <= candela::ReadingLimits::k_most_bytes) {
         const ssize_t count = ::read(descriptor, part.data(), part.size());

@@ -14,10 +14,9 @@ using candela::Error;
 using candela::ErrorCategory;
 
 fs::path beside_command(const char* relative) {
-    const fs::path program = fs::canonical("/proc/self/exe"), folder = program.parent_path();
+    const fs::path program = fs::canonical("/proc/self/exe"), above = program.parent_path().parent_path();
     // bin/candela or lib/candela/candela-verbs
-    const bool is_sibling = folder.filename() == "candela";
-    return (is_sibling ? folder.parent_path().parent_path() : folder.parent_path()) / relative;
+    return (program.filename() == "candela-verbs" ? above.parent_path() : above) / relative;
 }
 
 fs::path sibling_program(const char* program, const char* what, const char* where_from) {

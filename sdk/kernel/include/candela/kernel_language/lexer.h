@@ -24,8 +24,8 @@ struct Lexeme {
 
 /// All lexemes of a text, which they point into. Never fails: a sign is an operator of the kernel language
 /// ("<=", "+=", "&&") or any other character; a comment that is not closed extends to the end. Regular
-/// expressions, of which libstdc++ compiles one per millisecond, would take an eighth of the time for writing
-/// a page.
+/// expressions would take an eighth of the time for writing a page, because libstdc++ needs a millisecond to
+/// compile each.
 std::vector<Lexeme> lexemes_of(std::string_view text);
 
 /// The lexemes that mean something: not blanks or comments.
