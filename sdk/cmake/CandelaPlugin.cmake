@@ -1,4 +1,4 @@
-# candela_add_plugin(<kind>/<name> SOURCES <file>... [KERNEL <file>] [EMBED <file>...] [LIBRARIES <target>...]
+# candela_add_plugin(<kind>/<name> [KERNEL <file>] [SOURCES <file>...] [EMBED <file>...] [LIBRARIES <target>...]
 #                    [DATA <dir>] [VERSION <x.y.z>] [AUTHOR <name>] [LICENSE <spdx>]
 #                    [CONFORMANCE_VALUES <parameter>=<value>...])
 #
@@ -6,8 +6,9 @@
 # image or target.
 # The target is named candela_<kind>_<name>. If tests are enabled (enable_testing() before the call), and
 # CANDELA_CONFORMANCE_TESTS is not set to OFF, "<kind>/<name> conforms" is a test.
-#   SOURCES    the files to compile; one of them ends with the macro of its kind (candela/<kind>_plugin.h)
-#   KERNEL     the model's formulas in the kernel language; its text is embedded for the program generator
+#   KERNEL     the model, <name>.kernel, in the kernel language: its formulas, and comments that declare its parameters. Without
+#              SOURCES it is the whole plugin; its text is embedded for the program generator
+#   SOURCES    C++ to compile; one of the files ends with CANDELA_PLUGIN or CANDELA_KERNEL_PLUGIN (candela/<kind>_plugin.h)
 #   EMBED      files that the sources embed, with CANDELA_EMBED(variable, CANDELA_SOURCE_DIR "/...") (candela/embed.h)
 #   LIBRARIES  other libraries; the project's own shared libraries are found next to the plugin, wherever both are moved to
 #   DATA       a folder of the plugin's own files, copied next to the library as the folder <kind>-<name>, which
@@ -68,6 +69,20 @@ function(candela_add_plugin id)
     set(target candela_${kind}_${name})
     set(file ${kind}-${name})
 
+    if(PLUGIN_KERNEL)
+        cmake_path(ABSOLUTE_PATH PLUGIN_KERNEL OUTPUT_VARIABLE kernel)
+    endif()
+    if(PLUGIN_KERNEL AND NOT PLUGIN_SOURCES)
+        cmake_path(GET kernel STEM stem)
+        if(NOT stem STREQUAL name OR NOT kind MATCHES "^(light|reflection|shading)$")
+            message(FATAL_ERROR "candela_add_plugin(${id}): without SOURCES, KERNEL is a light, a reflection or a shading model in "
+                "${name}.kernel")
+        endif()
+        set(PLUGIN_SOURCES ${CMAKE_CURRENT_BINARY_DIR}/${file}.cpp)
+        add_custom_command(OUTPUT ${PLUGIN_SOURCES} DEPENDS ${kernel} candela::model
+            COMMAND candela::model ${kernel} ${PLUGIN_SOURCES} COMMENT "Reading ${kind}/${stem}.kernel" VERBATIM)
+    endif()
+
     add_library(${target} MODULE ${PLUGIN_SOURCES})
     target_compile_features(${target} PRIVATE cxx_std_20)
     set_target_properties(${target} PROPERTIES
@@ -88,7 +103,6 @@ function(candela_add_plugin id)
     target_compile_definitions(${target} PRIVATE
         CANDELA_PLUGIN_NAME="${name}" CANDELA_PLUGIN_VERSION="${PLUGIN_VERSION}")
     if(PLUGIN_KERNEL)
-        cmake_path(ABSOLUTE_PATH PLUGIN_KERNEL OUTPUT_VARIABLE kernel)
         target_compile_definitions(${target} PRIVATE CANDELA_KERNEL_FILE="${kernel}")
         set_property(SOURCE ${PLUGIN_SOURCES} APPEND PROPERTY OBJECT_DEPENDS ${kernel})
         # Reports now, once, and at the kernel's line, what would not compile in programs generated from it. A variable that

@@ -8,14 +8,13 @@
 #include "candela/embed.h"
 #include "checker.h"
 #include "parser.h"
+#include "prelude.h"
 
 import candela.util;
 
 CANDELA_EMBED(candela_kernel_language_prelude, CANDELA_KERNEL_PRELUDE);
 
 namespace candela::kernel_language {
-
-namespace {
 
 Problem problem_at(const Source& source, std::size_t offset, const std::string& message) {
     const std::string_view before = std::string_view(source.text).substr(0, offset);
@@ -26,21 +25,28 @@ Problem problem_at(const Source& source, std::size_t offset, const std::string& 
             1 + character_count(in_line), message};
 }
 
+namespace {
+
+struct Prelude {
+    std::vector<Declaration> declarations;
+    Declared declared;
+};
+
+const Prelude& prelude() {
+    static const Prelude k_prelude = [] {
+        std::vector<Declaration> declarations = parsed_kernel(tokens_of(candela_kernel_language_prelude, 0));
+        Checker checker({});
+        checker.check(declarations);
+        return Prelude{std::move(declarations), checker.declared()};
+    }();
+    return k_prelude;
+}
+
 void require_size(const Source& source, std::size_t longest) {
     if (source.text.size() > longest)
         throw problem_at(
             source, 0,
             fmt::format("the text has {} bytes; at most {} are allowed", source.text.size(), longest));
-}
-
-const Declared& prelude() {
-    static const Declared k_declared = [] {
-        std::vector<Declaration> declarations = parsed_kernel(tokens_of(candela_kernel_language_prelude, 0));
-        Checker checker({});
-        checker.check(declarations);
-        return checker.declared();
-    }();
-    return k_declared;
 }
 
 void replace(std::vector<Declaration>& declarations, const Body& body) {
@@ -57,6 +63,8 @@ void replace(std::vector<Declaration>& declarations, const Body& body) {
 
 }  // namespace
 
+const std::vector<Declaration>& prelude_declarations() { return prelude().declarations; }
+
 std::string Problem::text() const { return fmt::format("{}:{}:{}: {}", file_, line_, column_, what()); }
 
 Kernel read_kernel(const Source& source, const std::optional<Body>& body) {
@@ -69,7 +77,10 @@ Kernel read_kernel(const Source& source, const std::optional<Body>& body) {
     try {
         kernel.declarations = parsed_kernel(tokens_of(source.text, 0));
         if (body) replace(kernel.declarations, *body);
-        Checker(prelude()).check(kernel.declarations);
+        Checker checker(prelude().declared);
+        checker.check(kernel.declarations);
+        for (const Structure& structure : checker.declared().structures)
+            kernel.structures.push_back(structure.name);
     } catch (const Refusal& refusal) {
         throw problem_at(kernel.sources[refusal.place.source], refusal.place.offset, refusal.message);
     }

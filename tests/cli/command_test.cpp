@@ -235,7 +235,7 @@ TEST_CASE("list and describe show the contents of manifests") {
 
     const CommandResult phong = run_candela({"describe", "reflection/phong"});
     CHECK(phong.exit_code == 0);
-    for (const char* const part : {"ks I_L max(R.V, 0)^shininess", "Phong (1975)", "shininess", "at least 0",
+    for (const char* const part : {"k_s I_L max(R.V, 0)^shininess", "Phong (1975)", "shininess", "at least 0",
                                    "default 32", "The Candela authors", "Apache-2.0"}) {
         CHECK(holds(phong.out, part));
     }

@@ -239,9 +239,9 @@ TEST_CASE("exercise: the shipped models' own formulas are right answers", "[prog
                    plugins = fs::path(CANDELA_TEST_SOURCE) / "plugins/reflection";
     std::size_t count = 0;
     for (const auto& entry : fs::directory_iterator(plugins)) {
-        const std::string name = entry.path().filename().string();
-        const fs::path file = entry.path() / (name + ".kernel");
-        if (!fs::exists(file) || name == "dielectric") continue;
+        const fs::path file = entry.path();
+        const std::string name = file.stem().string();
+        if (file.extension() != ".kernel" || name == "dielectric") continue;
         std::string prefix = name, text = read_file(file);
         std::ranges::replace(prefix, '-', '_');
         const std::size_t at = text.find(" " + prefix + "_reflect(");

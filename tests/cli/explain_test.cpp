@@ -157,8 +157,7 @@ TEST_CASE("a step is a statement of the kernel, with its file, line and text") {
                                    .light = "[-4, 2, 0]",
                                    .observer = "[0, 5, 1]",
                                    .look_at = "[0, 0, 0]"});
-    const std::string kernel =
-        read_file(fs::path(CANDELA_TEST_SOURCE) / "plugins/reflection/phong/phong.kernel");
+    const std::string kernel = read_file(fs::path(CANDELA_TEST_SOURCE) / "plugins/reflection/phong.kernel");
     const std::string statement = "float n_dot_l = dot(s.normal, to_light)";
     const auto line =
         1 + std::count(kernel.begin(), kernel.begin() + static_cast<long>(kernel.find(statement)), '\n');

@@ -34,8 +34,11 @@ constexpr auto k_fields = fields(
     integer(&TabledMaterial::squares, "squares", 8, "of the checker").range(1, 20));
 constexpr candela::Property k_properties[] = {{"fixed-in-world"}};
 
-CANDELA_REFLECTION_PLUGIN_READING(reads_position | reads_uv, tabled, TabledMaterial, k_fields,
-                                  {.title = "Tabled",
-                                   .summary = "A ramp, a matrix, a table from a file and a checker.",
-                                   .formula = "(see its kernel)",
-                                   .properties = k_properties})
+CANDELA_KERNEL_PLUGIN(reflection,
+                      (KernelReflection < TabledMaterial, &candela::kernel::tabled_reflect,
+                       &candela::kernel::tabled_reflect_ambient, reads_position | reads_uv >),
+                      tabled, TabledMaterial, k_fields,
+                      {.title = "Tabled",
+                       .summary = "A ramp, a matrix, a table from a file and a checker.",
+                       .formula = "(see its kernel)",
+                       .properties = k_properties})

@@ -49,7 +49,7 @@ cmp -s "$scratch/cel.ppm" "$scratch/phong.ppm" && fail "cel looks like Phong"
 
 say "a program is generated with its formula, and renders the same as Candela"
 "$candela" generate --target cpp --reflection cel -o "$scratch/program" 2>"$scratch/out"
-grep -q "Cel shading: Lambert's cosine in a few steps" "$scratch/program/scene.cpp" || fail "the kernel is not in the program"
+grep -q "Brightness in steps, as in cartoons" "$scratch/program/scene.cpp" || fail "the kernel is not in the program"
 "$candela" verify --target cpp --program "$scratch/program" --reflection cel --width 160 --height 160 >"$scratch/out" 2>&1 &&
     fail "a program for another size passed as the same picture"
 "$candela" verify --target cpp --reflection cel --width 160 --height 160 >"$scratch/out" 2>&1 || { cat "$scratch/out" >&2; fail "verify"; }

@@ -92,7 +92,7 @@ class Exercising(unittest.TestCase):
         for model in ("ggx", "ward", "oren-nayar", "toon"):
             with self.subTest(model):
                 self.open(model)
-                text = pathlib.Path(__file__).parents[2].joinpath("plugins/reflection", model, f"{model}.kernel").read_text()
+                text = pathlib.Path(__file__).parents[2].joinpath("plugins/reflection", f"{model}.kernel").read_text()
                 prefix = model.replace("-", "_")
                 begin = text.index("{", text.index(f" {prefix}_reflect(")) + 1
                 self.write(text[begin:text.index("\n}", begin)].strip("\n"))

@@ -54,13 +54,15 @@ std::string refusal(const fs::path& directory, const std::string& name) {
     return sentence;
 }
 
-/// The plugins of the source tree, by kind and name: a plugin is a folder.
-std::vector<std::string> folders() {
+/// The plugins of the source tree, by kind and name: a plugin is a kernel file or a folder.
+std::vector<std::string> sources() {
     std::vector<std::string> ids;
     for (const char* const kind : {"light", "reflection", "shading", "shape", "image", "target"}) {
         std::vector<std::string> of_kind;
-        for (const auto& folder : fs::directory_iterator(k_plugins / kind))
-            of_kind.push_back(kind + ("/" + folder.path().filename().string()));
+        for (const auto& entry : fs::directory_iterator(k_plugins / kind)) {
+            if (entry.is_directory() || entry.path().extension() == ".kernel")
+                of_kind.push_back(kind + ("/" + entry.path().stem().string()));
+        }
         std::ranges::sort(of_kind);
         ids.insert(ids.end(), of_kind.begin(), of_kind.end());
     }
@@ -81,7 +83,7 @@ TEST_CASE("the shipped plugins are all listed, with their manifests and without 
         CHECK(file->manifest.abi == candela::host_abi());
         for (const candela::Parameter& p : file->manifest.parameters) CHECK_FALSE(p.meaning.empty());
     }
-    CHECK(ids == folders());
+    CHECK(ids == sources());
     CHECK(registry.refusals().empty());
 }
 
@@ -106,7 +108,8 @@ TEST_CASE("a plugin made of kernel functions includes their text, and declares h
         INFO(m.id());
         const candela::KernelText& kernel = candela::load_plugin(file->library, &m).kernel;
         CHECK(m.has_kernel == (kernel.text != nullptr));
-        const fs::path source = k_plugins / candela::name_of(m.kind) / m.name / (m.name + ".kernel");
+        fs::path source = k_plugins / candela::name_of(m.kind) / (m.name + ".kernel");
+        if (!fs::exists(source)) source = source.parent_path() / m.name / (m.name + ".kernel");
         CHECK(m.has_kernel == fs::exists(source));
         if (!m.has_kernel) continue;
         const std::string text = kernel.text;
@@ -205,7 +208,7 @@ TEST_CASE("a plugin's manifest must be next to it, valid, and its own") {
     CHECK(holds(refusal(directory, "other"), "its manifest is that of reflection/phong"));
     CHECK(holds(refusal(directory, "bare"), "its manifest exists, but the library does not"));
     Registry registry({directory, k_shipped});
-    CHECK(registry.list().size() == folders().size());
+    CHECK(registry.list().size() == sources().size());
     CHECK(registry.refusals().size() == 4);
 }
 

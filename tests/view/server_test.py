@@ -155,7 +155,7 @@ class ServerTest(unittest.TestCase):
         status, answer = self.keep("model=reflection%2Fphong&name=cel", b"// mine\nstruct PhongMaterial { vec3 ka; };\nKERNEL vec3 phong_reflect_ambient(PhongMaterial m, Surface s) { return m.ka; }\n")
         self.assertEqual(status, 200, answer)
         self.assertEqual(self.folders(), ["cel", "tmp"])
-        self.assertEqual(self.view.folder.joinpath("cel/cel.kernel").read_text(), "// mine\nstruct CelMaterial { vec3 ka; };\nKERNEL vec3 cel_reflect_ambient(CelMaterial m, Surface s) { return m.ka; }\n")
+        self.assertEqual(self.view.folder.joinpath("cel/cel.kernel").read_text(), "/// # Cel\n/// Based on Phong: one sentence about it.\n///\n// mine\nstruct CelMaterial { vec3 ka; };\nKERNEL vec3 cel_reflect_ambient(CelMaterial m, Surface s) { return m.ka; }\n")
         before = {each: each.read_bytes() for each in self.view.folder.joinpath("cel").iterdir()}
         self.view.folder.joinpath("link").symlink_to("/nonexistent")
         for name, reason in (("cel", b"already exists"), ("link", b"already exists"), ("tmp", b"already exists"), ("..%2Fx", b"is not a valid plugin name"),

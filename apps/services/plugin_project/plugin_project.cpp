@@ -1,14 +1,11 @@
 #include "plugin_project/plugin_project.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <cmath>
 #include <map>
 #include <regex>
 #include <string_view>
 
-#include "candela/target/literals.h"
 #include "programs/sibling_program.h"
 
 import candela.api;
@@ -18,9 +15,6 @@ namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
 using candela::ExportedFile;
-using candela::ParamSpec;
-using candela::ParamType;
-using candela::target::float_text;
 
 namespace {
 
@@ -44,97 +38,6 @@ std::string type_of(std::string_view words, char separator) {
     return type;
 }
 
-/// A text as a C++ string literal.
-std::string literal_of(std::string_view text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '\n') {
-            result += "\\n";
-        } else {
-            if (c == '"' || c == '\\') result += '\\';
-            result += c;
-        }
-    }
-    return result + '"';
-}
-
-std::string numbers_of(const float (&number)[9], std::size_t count) {
-    std::vector<std::string> texts;
-    for (std::size_t i = 0; i < count; ++i) texts.push_back(float_text(number[i]));
-    return fmt::format("{}", fmt::join(texts, ", "));
-}
-
-/// The declaration of one parameter, in the style of candela/plugin.h.
-std::string field_of(const ParamSpec& p, const std::string& material) {
-    const auto with = [&](const char* kind, const std::string& default_value) {
-        return fmt::format("{}(&{}::{}, {}, {}{})", kind, material, p.name, literal_of(p.name),
-                           default_value.empty() ? "" : default_value + ", ", literal_of(p.meaning));
-    };
-    const auto three = [&](const char* type) {
-        return fmt::format("three(&{}::{}, candela::ParamType::{}, {}, candela::kernel::vec3({}), {})",
-                           material, p.name, type, literal_of(p.name), numbers_of(p.default_value.number, 3),
-                           literal_of(p.meaning));
-    };
-    std::string text;
-    switch (p.type) {
-        case ParamType::real:
-            text = with("real", float_text(p.default_value.number[0]));
-            break;
-        case ParamType::integer:
-            text = with("integer", fmt::to_string(p.default_value.integer));
-            break;
-        case ParamType::boolean:
-            return with("boolean", p.default_value.integer != 0 ? "true" : "false");
-        case ParamType::choice:
-            return with("choice", fmt::format("k_{}_choices", p.name));
-        case ParamType::matrix:
-            return fmt::format("matrix(&{}::{}, {}, {}, {{{}}})", material, p.name, literal_of(p.name),
-                               literal_of(p.meaning), numbers_of(p.default_value.number, 9));
-        case ParamType::text:
-        case ParamType::file:
-        case ParamType::numbers:
-            throw Error(ErrorCategory::bad_request,
-                        fmt::format("the parameter '{}' is a {}, which new projects do not support", p.name,
-                                    name_of(p.type)));
-        default:
-            text = three(std::string(name_of(p.type)).c_str());
-    }
-    if (std::isfinite(p.minimum))
-        text += fmt::format(".{}({})", p.minimum_excluded ? "above" : "minimum", float_text(p.minimum));
-    if (std::isfinite(p.maximum))
-        text += fmt::format(".{}({})", p.maximum_excluded ? "below" : "maximum", float_text(p.maximum));
-    if (*p.unit != '\0') text += fmt::format(".unit({})", literal_of(p.unit));
-    if (p.required) text += ".required()";
-    return text;
-}
-
-std::string relations_of(const candela::PluginDescriptor& plugin) {
-    if (plugin.relations.empty()) return "";
-    constexpr const char* k_types[] = {"less", "less_or_equal", "sum_at_most_one"};
-    std::vector<std::string> rows;
-    for (const candela::RelationSpec& relation : plugin.relations) {
-        rows.push_back(fmt::format("    {{candela::RelationType::{}, {}, {}, {}, {}}}",
-                                   k_types[static_cast<int>(relation.type)], literal_of(relation.left),
-                                   literal_of(relation.right), relation.only_warns ? "true" : "false",
-                                   literal_of(relation.meaning)));
-    }
-    return fmt::format("constexpr candela::RelationSpec k_relations[] = {{\n{}}};\n\n",
-                       fmt::join(rows, ",\n"));
-}
-
-/// The members of Surface that the kernel reads, as CANDELA_REFLECTION_PLUGIN_READING takes them; empty if
-/// they are only those that every model reads.
-std::string reads_of(const std::string& kernel) {
-    constexpr std::pair<const char*, const char*> k_reads[] = {
-        {R"(\.\s*tangent\b|\btangent_or_any\b)", "reads_tangent"},
-        {R"(\.\s*position\b)", "reads_position"},
-        {R"(\.\s*uv\b)", "reads_uv"}};
-    std::vector<std::string> reads;
-    for (const auto& [pattern, name] : k_reads)
-        if (std::regex_search(kernel, std::regex(pattern))) reads.emplace_back(name);
-    return fmt::format("{}", fmt::join(reads, " | "));
-}
-
 /// The kernel with its model's name replaced in all identifiers.
 std::string renamed(const std::string& kernel, const candela::PluginDescriptor& plugin,
                     const ProjectNames& names) {
@@ -145,34 +48,16 @@ std::string renamed(const std::string& kernel, const candela::PluginDescriptor& 
                               names.type);
 }
 
-std::string source_of(const candela::PluginDescriptor& plugin, const std::string& kernel,
-                      const ProjectNames& names) {
-    const std::string material = renamed(plugin.kernel.parameters, plugin, names);
-    std::vector<std::string> fields;
-    std::string choices;
-    for (const ParamSpec& p : plugin.parameters) {
-        fields.push_back("    " + field_of(p, material));
-        if (p.type != ParamType::choice) continue;
-        std::vector<std::string> words;
-        for (const char* const word : p.choices) words.push_back(literal_of(word));
-        choices +=
-            fmt::format("constexpr const char* k_{}_choices[] = {{{}}};\n\n", p.name, fmt::join(words, ", "));
-    }
-    const std::string reads = reads_of(kernel);
-    return fmt::format(
-        "#include <candela/reflection_plugin.h>\n\nnamespace candela::kernel {{\n#include "
-        "\"{0}.kernel\"\n}}\n\n"
-        "using candela::kernel::{1};\nusing namespace candela::sdk;\n\n{2}constexpr auto k_fields = "
-        "fields(\n{3});\n\n{4}"
-        "// The conformance kit verifies the properties declared here: reciprocal, energy-bounded, "
-        "isotropic …\n"
-        "{5}({6}{7}, {1}, k_fields,\n    {{.title = {8},\n     .summary = \"One sentence about it.\",\n     "
-        ".formula = {9}{10}}})\n",
-        names.name, material, choices, fmt::join(fields, ",\n"), relations_of(plugin),
-        reads.empty() ? "CANDELA_REFLECTION_PLUGIN" : "CANDELA_REFLECTION_PLUGIN_READING",
-        reads.empty() ? "" : reads + ", ", names.ident, literal_of(names.title),
-        literal_of(fmt::format("based on reflection/{}", plugin.name)),
-        plugin.relations.empty() ? "" : ",\n     .relations = k_relations");
+/// The kernel under its new title, with the model that it comes from instead of a summary.
+std::string retitled(std::string kernel, const std::string& title, const std::string& summary) {
+    const std::size_t begin = kernel.find("/// # ");
+    if (begin == std::string::npos) return fmt::format("/// # {}\n/// {}\n///\n{}", title, summary, kernel);
+    std::size_t end = begin;  // of the title and the paragraph behind it
+    while (kernel.compare(end, 5, "/// \n") != 0 && kernel.compare(end, 4, "///\n") != 0 &&
+           kernel.compare(end, 3, "///") == 0)
+        end = kernel.find('\n', end) + 1;
+    kernel.replace(begin, end - begin, fmt::format("/// # {}\n/// {}\n", title, summary));
+    return kernel;
 }
 
 std::string test_of(const ProjectNames& names) {
@@ -234,11 +119,8 @@ std::vector<ExportedFile> template_files(const std::string& kind, const ProjectN
 std::vector<ExportedFile> files_like(const candela::PluginFile& model, const std::string& kernel,
                                      const ProjectNames& names) {
     const candela::PluginDescriptor& plugin = *model.descriptor;
-    if (*plugin.kernel.parameters == '\0')
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("reflection/{} has no parameters to start a project from", plugin.name));
-    const std::string text = renamed(kernel, plugin, names);
+    const std::string text = retitled(renamed(kernel, plugin, names), names.title,
+                                      fmt::format("Based on {}: one sentence about it.", plugin.title));
     return {{names.name + ".kernel", text + (text.ends_with('\n') ? "" : "\n")},
-            {names.name + ".cpp", source_of(plugin, text, names)},
             {names.name + "_test.cpp", test_of(names)}};
 }

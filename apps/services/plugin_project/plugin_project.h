@@ -21,8 +21,7 @@ ProjectNames project_names(const std::string& name);
 /// The installed template of a kind, with the names filled in. Throws candela::Error (failure).
 std::vector<candela::ExportedFile> template_files(const std::string& kind, const ProjectNames& names);
 
-/// The files of a reflection model that differ from the template's: `model`'s parameters and relations, and
-/// the kernel text with identifiers renamed from `model` to the new model. `model` is loaded. Throws
-/// candela::Error (bad_request) if a text cannot represent the model's parameters.
+/// The files of a model that differ from the template's: a kernel that declares what `model`'s does, with the
+/// text and the identifiers of the new model. `model` is loaded.
 std::vector<candela::ExportedFile> files_like(const candela::PluginFile& model, const std::string& kernel,
                                               const ProjectNames& names);

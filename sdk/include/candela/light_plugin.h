@@ -13,15 +13,14 @@
 //     Incident x_illuminate(XLight light, Receiver r, int index)
 //
 // Reflection models evaluate a light that can describe itself as data in their own loop, which is faster with
-// many lights. Such a light has one of two C++ functions in the namespace of XLight, where they are found by
-// argument-dependent lookup:
+// many lights. Such a light has another kernel function:
 //
-//     // sample `index`; 0 if the light has only one
-//     PunctualLight punctual(const XLight& light, int index)
-//     // an ambient light that is the same everywhere
-//     vec3 uniform_ambient(const XLight& light)
+//     // sample `index`, if the light has several
+//     Punctual x_punctual(XLight light)
+//     Punctual x_punctual(XLight light, int index)
 //
-// The conformance kit checks them against the kernel functions.
+// A light that reads nothing of the receiver is described without one. The conformance kit checks the
+// description against the other functions.
 #pragma once
 
 #include "candela/kernel/simd_dispatch.h"
@@ -31,37 +30,31 @@
 
 namespace candela::sdk {
 
-// The parameters that the shipped lights share.
-template <class P>
-constexpr Field<P> light_color(vec3 P::* member) {
-    return color(member, "color", vec3(255.0f), "colour of the light");
-}
-template <class P>
-constexpr Field<P> light_intensity(float P::* member, const char* meaning) {
-    return real(member, "intensity", 1, meaning).minimum(0);
-}
-
-/// The choices of the kernel function distance_attenuation().
-inline constexpr const char* k_attenuations[] = {"inverse-square", "offset-linear", "none"};
-template <class P>
-constexpr Field<P> attenuation(std::int32_t P::* member) {
-    return choice(member, "attenuation", k_attenuations, "attenuation with distance r");
-}
-template <class P>
-constexpr Field<P> attenuation_offset(float P::* member) {
-    return real(member, "attenuation_offset", 0.01f, "k of offset-linear attenuation 1/(r + k)")
-        .minimum(0)
-        .unit("m");
-}
-
-/// Kernel function point_source() as data.
-inline PunctualLight punctual_source(vec3 position, vec3 color, float intensity, int law, float offset) {
+/// What a kernel says of a light, for reflection models.
+inline PunctualLight punctual_light(const kernel::Punctual& given) {
     PunctualLight light;
-    light.position = {position.x, position.y, position.z};
-    light.diffuse = light.specular = {color.x * intensity, color.y * intensity, color.z * intensity};
-    light.constant = law == 1 ? offset : (law == 0 ? 0.0f : 1.0f);
-    light.linear = law == 1 ? 1.0f : 0.0f;
-    light.quadratic = law == 0 ? 1.0f : 0.0f;
+    light.position = {given.position.x, given.position.y, given.position.z};
+    const vec3 sent = given.color * given.intensity;
+    light.diffuse = light.specular = {sent.x, sent.y, sent.z};
+    light.constant = given.attenuation.x;
+    light.linear = given.attenuation.y;
+    light.quadratic = given.attenuation.z;
+    if (given.falloff == 0) return light;
+    light.has_cone = true;
+    light.is_smooth = given.falloff == 1;
+    light.axis = {given.axis.x, given.axis.y, given.axis.z};
+    light.cos_outer = given.cos_outer;
+    light.cone_scale = 1.0f / kernel::max(given.cos_inner - given.cos_outer, 1.0e-7f);
+    return light;
+}
+
+/// A light whose kernel gives every receiver the same.
+inline PunctualLight distant_light(const kernel::Incident& sent) {
+    PunctualLight light;
+    light.position = {sent.to_light.x, sent.to_light.y, sent.to_light.z};
+    light.w = 0;
+    light.diffuse = {sent.diffuse.x, sent.diffuse.y, sent.diffuse.z};
+    light.specular = {sent.specular.x, sent.specular.y, sent.specular.z};
     return light;
 }
 
@@ -176,26 +169,3 @@ class KernelAmbientLight : public Light {
 };
 
 }  // namespace candela::sdk
-
-/// A plugin from the kernel function `prefix_illuminate`; `Params` is its first argument.
-#define CANDELA_LIGHT_PLUGIN(prefix, Params, fields, ...)                                      \
-    CANDELA_KERNEL_PLUGIN(light,                                                               \
-                          (candela::sdk::KernelLight<CANDELA_KERNEL_CONSTANTS(prefix, Params), \
-                                                     &candela::kernel::prefix##_illuminate>),  \
-                          prefix, Params, fields, __VA_ARGS__)
-
-/// A plugin from the kernel functions `prefix_illuminate` and `prefix_sample_count` of a source with several
-/// samples; `Params` is their first argument.
-#define CANDELA_SAMPLED_LIGHT_PLUGIN(prefix, Params, fields, ...)                                      \
-    CANDELA_KERNEL_PLUGIN(light,                                                                       \
-                          (candela::sdk::KernelSampledLight<CANDELA_KERNEL_CONSTANTS(prefix, Params),  \
-                                                            &candela::kernel::prefix##_illuminate,     \
-                                                            &candela::kernel::prefix##_sample_count>), \
-                          prefix, Params, fields, __VA_ARGS__)
-
-/// A plugin from the kernel function `prefix_illuminate_ambient`; `Params` is its first argument.
-#define CANDELA_AMBIENT_LIGHT_PLUGIN(prefix, Params, fields, ...)                                            \
-    CANDELA_KERNEL_PLUGIN(light,                                                                             \
-                          (candela::sdk::KernelAmbientLight<CANDELA_KERNEL_CONSTANTS(prefix, Params),        \
-                                                            &candela::kernel::prefix##_illuminate_ambient>), \
-                          prefix, Params, fields, __VA_ARGS__)

@@ -3,7 +3,8 @@
 //     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)
 //     vec3 x_reflect_ambient(XMaterial m, Surface s)
 //
-// They return the factors for a light's intensities and for the ambient intensity.
+// They return the factors for a light's intensities and for the ambient intensity. A model in a .kernel file
+// is a KernelReflection; so is a model whose parameters need C++, which ends with CANDELA_KERNEL_PLUGIN.
 #pragma once
 
 #include "candela/kernel/simd_dispatch.h"
@@ -11,28 +12,6 @@
 #include "candela/reflection_model.h"
 
 namespace candela::sdk {
-
-// The parameters of the classic models (CA Table 1).
-
-template <class M>
-constexpr Field<M> ambient_coefficient(vec3 M::* member) {
-    return coefficient(member, "ka", 0.1f, "how much ambient light is reflected");
-}
-template <class M>
-constexpr Field<M> diffuse_coefficient(vec3 M::* member) {
-    return coefficient(member, "kd", 0.7f, "how much light is reflected diffusely");
-}
-template <class M>
-constexpr Field<M> specular_coefficient(vec3 M::* member) {
-    return coefficient(member, "ks", 0.3f, "how much light is reflected in the highlight");
-}
-template <class M>
-constexpr Field<M> shininess(float M::* member) {
-    return real(member, "shininess", 32, "the larger, the smaller and sharper the highlight").minimum(0);
-}
-/// RE ties the two by k_s + k_d = 1.
-inline constexpr RelationSpec k_diffuse_and_specular[] = {
-    {RelationType::sum_at_most_one, "kd", "ks", true, "the surface sends out more light than it receives"}};
 
 /// The members of Surface that a model's kernel reads in addition to normal, to_observer and color, joined by
 /// |. No others are filled.
@@ -305,26 +284,3 @@ class KernelReflection : public ReflectionModel {
 };
 
 }  // namespace candela::sdk
-
-/// A plugin from the kernel functions `prefix_reflect` and `prefix_reflect_ambient`; `Material`, or what
-/// `prefix_prepare` makes of it, is their first argument.
-#define CANDELA_REFLECTION_PLUGIN(prefix, Material, fields, ...)                                        \
-    CANDELA_KERNEL_PLUGIN(reflection,                                                                   \
-                          (candela::sdk::KernelReflection<CANDELA_KERNEL_CONSTANTS(prefix, Material),   \
-                                                          &candela::kernel::prefix##_reflect,           \
-                                                          &candela::kernel::prefix##_reflect_ambient>), \
-                          prefix, Material, fields, __VA_ARGS__)
-
-/// Like CANDELA_REFLECTION_PLUGIN, for a model that reads more of Surface: `reads` is, for example,
-/// reads_position | reads_uv.
-#define CANDELA_REFLECTION_PLUGIN_READING(reads, prefix, Material, fields, ...)                \
-    CANDELA_KERNEL_PLUGIN(                                                                     \
-        reflection,                                                                            \
-        (candela::sdk::KernelReflection<CANDELA_KERNEL_CONSTANTS(prefix, Material),            \
-                                        &candela::kernel::prefix##_reflect,                    \
-                                        &candela::kernel::prefix##_reflect_ambient, (reads)>), \
-        prefix, Material, fields, __VA_ARGS__)
-
-/// Like CANDELA_REFLECTION_PLUGIN, for a model that reads Surface::tangent.
-#define CANDELA_ANISOTROPIC_REFLECTION_PLUGIN(prefix, Material, fields, ...) \
-    CANDELA_REFLECTION_PLUGIN_READING(candela::sdk::reads_tangent, prefix, Material, fields, __VA_ARGS__)

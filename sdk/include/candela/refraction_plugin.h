@@ -191,14 +191,3 @@ class KernelRefraction : public ReflectionModel {
 };
 
 }  // namespace candela::sdk
-
-/// A plugin from the kernel functions `prefix_reflect`, `prefix_reflect_ambient`, `prefix_enter`,
-/// `prefix_leave` and `prefix_transmit`; `Material` is their first argument.
-#define CANDELA_REFRACTION_PLUGIN(prefix, Material, fields, ...)                                            \
-    CANDELA_KERNEL_PLUGIN(                                                                                  \
-        reflection,                                                                                         \
-        (candela::sdk::KernelRefraction<Material, &candela::kernel::prefix##_reflect,                       \
-                                        &candela::kernel::prefix##_reflect_ambient,                         \
-                                        &candela::kernel::prefix##_enter, &candela::kernel::prefix##_leave, \
-                                        &candela::kernel::prefix##_transmit>),                              \
-        prefix, Material, fields, __VA_ARGS__)

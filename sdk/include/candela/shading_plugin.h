@@ -14,9 +14,8 @@
 //     vec3 x_normal(ShadingPoint p, Triangle t)          or
 //     vec3 x_normal(XShading shading, ShadingPoint p, Triangle t)
 //
-// A model that needs texture coordinates or derivatives, or does not read all of the face normal, the vertex
-// normal and the barycentric coordinates, passes its ShadingNeeds as the last argument of KernelShading, in
-// CANDELA_KERNEL_PLUGIN. Anything it does not need is zero.
+// The last argument of KernelShading says what the model reads of a ShadingPoint; the rest is zero. For a
+// model in a .kernel file, that is found in its text.
 #pragma once
 
 #include <algorithm>
@@ -32,10 +31,6 @@
 #include "candela/shading_model.h"
 
 namespace candela::sdk {
-
-/// The needs of models that read only one normal.
-inline constexpr ShadingNeeds k_face_normal{.vertex_normal = false, .barycentric = false};
-inline constexpr ShadingNeeds k_vertex_normal{.face_normal = false, .barycentric = false};
 
 /// Whether a kernel's x_normal takes a Triangle. If not, the triangle is not filled.
 template <class Params, auto normal>
@@ -218,26 +213,3 @@ class WeightedShading : public KernelShading<Params, rate, normal, needs_> {
 };
 
 }  // namespace candela::sdk
-
-/// A plugin from the kernel function `prefix_normal`; `rate` is face, vertex or fragment.
-#define CANDELA_SHADING_PLUGIN(prefix, rate, Params, fields, ...) \
-    CANDELA_SHADING_PLUGIN_NEEDING(candela::ShadingNeeds{}, prefix, rate, Params, fields, __VA_ARGS__)
-
-/// Like CANDELA_SHADING_PLUGIN, for a model that declares what it reads: `needs` is a ShadingNeeds, for
-/// example k_vertex_normal.
-#define CANDELA_SHADING_PLUGIN_NEEDING(needs, prefix, rate, Params, fields, ...)                           \
-    CANDELA_KERNEL_PLUGIN(                                                                                 \
-        shading,                                                                                           \
-        (candela::sdk::KernelShading<CANDELA_KERNEL_CONSTANTS(prefix, Params), candela::ShadingRate::rate, \
-                                     &candela::kernel::prefix##_normal, (needs)>),                         \
-        prefix, Params, fields, __VA_ARGS__)
-
-/// Like CANDELA_SHADING_PLUGIN_NEEDING, with vertex normals weighted by the kernel function
-/// `prefix_corner_weight`.
-#define CANDELA_WEIGHTED_SHADING_PLUGIN(needs, prefix, rate, Params, fields, ...)                            \
-    CANDELA_KERNEL_PLUGIN(                                                                                   \
-        shading,                                                                                             \
-        (candela::sdk::WeightedShading<CANDELA_KERNEL_CONSTANTS(prefix, Params), candela::ShadingRate::rate, \
-                                       &candela::kernel::prefix##_normal,                                    \
-                                       &candela::kernel::prefix##_corner_weight, (needs)>),                  \
-        prefix, Params, fields, __VA_ARGS__)

@@ -121,7 +121,7 @@ std::vector<float> table_of(const char* path) {
 }
 
 constexpr auto k_fields = fields(
-    light_color(&IesLight::color),
+    color(&IesLight::color, "color", vec3(255.0f), "colour of the light"),
     real(&IesLight::intensity, "intensity", 0.001f, "the intensity of one candela in the file").minimum(0),
     point(&IesLight::position, "position", "the lamp's position"),
     direction(&IesLight::direction, "direction", "the lamp's axis, at which the vertical angle is 0"),
@@ -131,8 +131,8 @@ constexpr candela::Property k_properties[] = {{"attenuation", "by distance"}};
 
 }  // namespace
 
-CANDELA_LIGHT_PLUGIN(
-    ies, IesLight, k_fields,
+CANDELA_KERNEL_PLUGIN(
+    light, (KernelLight<IesLight, &candela::kernel::ies_illuminate>), ies, IesLight, k_fields,
     {.title = "IES light",
      .summary = "A lamp with the manufacturer's measurements, from a photometric file.",
      .formula = "I_L = color intensity I(vertical, horizontal) / r^2",

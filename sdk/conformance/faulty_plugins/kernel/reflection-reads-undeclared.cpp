@@ -8,7 +8,11 @@ namespace candela::kernel {
 using candela::kernel::ReadsUndeclaredMaterial;
 using namespace candela::sdk;
 
-constexpr auto k_fields = fields(diffuse_coefficient(&ReadsUndeclaredMaterial::kd));
+constexpr auto k_fields =
+    fields(coefficient(&ReadsUndeclaredMaterial::kd, "kd", 0.7f, "how much light is reflected diffusely"));
 
-CANDELA_REFLECTION_PLUGIN(reads_undeclared, ReadsUndeclaredMaterial, k_fields,
-                          {.title = "Reads undeclared", .summary = "Bad on purpose.", .reference = "none"})
+CANDELA_KERNEL_PLUGIN(reflection,
+                      (KernelReflection<ReadsUndeclaredMaterial, &candela::kernel::reads_undeclared_reflect,
+                                        &candela::kernel::reads_undeclared_reflect_ambient>),
+                      reads_undeclared, ReadsUndeclaredMaterial, k_fields,
+                      {.title = "Reads undeclared", .summary = "Bad on purpose.", .reference = "none"})

@@ -6,7 +6,8 @@ class DescribesAnother final : public faulty::Lamp {
   public:
     explicit DescribesAnother(const faulty::LampParams& params) : Lamp(params), lamp_(params) {}
     bool as_punctual(int, candela::PunctualLight& light) const override {
-        light = candela::sdk::punctual_source(lamp_.position, candela::sdk::vec3(1.0f), 1, 2, 0);
+        light = candela::sdk::punctual_light(
+            candela::kernel::punctual_source(lamp_.position, candela::sdk::vec3(1.0f), 1, 2, 0));
         return true;
     }
 

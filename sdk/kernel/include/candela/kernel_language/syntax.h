@@ -112,6 +112,7 @@ struct Source {
 struct Kernel {
     std::vector<Source> sources{};
     std::vector<Declaration> declarations{};
+    std::vector<std::string> structures{};  // the names of all, by Type::structure; the prelude's come first
 };
 
 }  // namespace candela::kernel_language
