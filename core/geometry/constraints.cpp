@@ -157,11 +157,12 @@ class Checker {
     }
 
     void check_overlaps(const std::function<void()>& checked) {
+        const bool checks_overlaps = scene_.constraints.overlap != Overlap::allow;
         std::size_t found = 0;
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-            if (scene_.constraints.overlap && i % k_bodies_at_once == 0) make_bodies(i);
+            if (checks_overlaps && i % k_bodies_at_once == 0) make_bodies(i);
             if (checked) checked();
-            if (surfaces_[i].empty() || !scene_.constraints.overlap) continue;
+            if (surfaces_[i].empty() || !checks_overlaps) continue;
             for (const std::size_t j : tree_.meeting(i)) {
                 if (j >= i || surfaces_[j].empty() || !overlap(body(i), body(j))) continue;
                 const Object& first = scene_.objects[j];
@@ -179,7 +180,7 @@ class Checker {
     }
 
     void report_overlap(const SourceLocation& place, std::string message) {
-        if (scene_.constraints.overlap == Severity::warning) {
+        if (scene_.constraints.overlap == Overlap::warn) {
             diagnostics_.warning(place, std::move(message));
         } else {
             diagnostics_.error(

@@ -31,8 +31,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int k_manifest_version = 1;
 
-double shortest(float x) { return std::stod(fmt::format("{}", x)); }
-
 Json json_of(const Value& value) {
     struct Writer {
         Json operator()(bool b) const { return b; }

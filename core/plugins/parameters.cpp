@@ -37,11 +37,6 @@ std::optional<Enum> enum_named(const std::array<std::string_view, count>& names,
 
 Vec3 vec3_of(const ParamValue& value) { return {value.number[0], value.number[1], value.number[2]}; }
 
-/// The shortest decimal that identifies a float: 0.1, not 0.10000000149011612.
-double shortest(float x) {
-    return std::isfinite(x) ? std::stod(fmt::format("{}", x)) : static_cast<double>(x);
-}
-
 /// Converts a default to the form in which users write it.
 Value value_of(const ParamSpec& spec, const ParamValue& value) {
     switch (spec.type) {
@@ -113,6 +108,13 @@ bool above(double x, const Parameter& p) {
 }
 
 }  // namespace
+
+double shortest(float x) {
+    if (!std::isfinite(x)) return static_cast<double>(x);
+    const double decimal = std::stod(fmt::format("{}", x));
+    // Rarely, rounding twice yields the float's neighbour.
+    return static_cast<float>(decimal) == x ? decimal : static_cast<double>(x);
+}
 
 std::optional<ParamType> param_type_named(std::string_view name) noexcept {
     for (int type = 0; type <= static_cast<int>(ParamType::numbers); ++type) {

@@ -24,6 +24,9 @@ export namespace candela {
 /// alternatives hold matrix and numbers.
 using Value = std::variant<bool, std::int64_t, double, std::string, Vec3, Matrix, NumberList>;
 
+/// The number with the fewest decimals that is `x` as a float: 0.1, not 0.10000000149011612.
+CANDELA_EXPORT double shortest(float x);
+
 /// A `ParamSpec` that owns its memory.
 struct Parameter {
     std::string name{};

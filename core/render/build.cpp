@@ -41,7 +41,7 @@ bool is_placed_as(const Scene& a, const Scene& b) {
         return x.label == y.label && position_of(x) == position_of(y);
     };
     // Warnings are reported again in every frame.
-    return a.constraints == b.constraints && a.constraints.overlap != Severity::warning && a.room == b.room &&
+    return a.constraints == b.constraints && a.constraints.overlap != Overlap::warn && a.room == b.room &&
            a.observer.position == b.observer.position &&
            std::ranges::equal(a.lights, b.lights, is_same_light);
 }

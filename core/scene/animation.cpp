@@ -19,6 +19,7 @@ module;
 module candela.scene;
 
 import :animating;
+import :fields;
 import :merge;
 import :models;
 import :tables;
@@ -28,10 +29,6 @@ import candela.util;
 namespace candela {
 
 namespace {
-
-const TableSchema& inner_schema(std::string_view name) {
-    return *std::ranges::find(schema_of("animation").tables, name, &TableSchema::name);
-}
 
 bool is_element(const std::vector<std::string>& parts) {
     return parts.size() > 1 && (parts[0] == "light" || parts[0] == "object");
@@ -70,14 +67,12 @@ class AnimationReader {
         const std::size_t errors = diagnostics_.error_count();
         const TableNode* const table = tables_.single("animation");
         if (table == nullptr) return std::nullopt;
-        const TableSchema& schema = schema_of("animation");
+        const TableSchema& schema = own_tables().animation.about();
         std::vector<std::string> keys = names_in(schema.parameters);
         for (const TableSchema& inner : schema.tables) keys.push_back(inner.name);
         const TableContext context = tables_.context_of("animation");
         report_unknown_keys(*table, keys, context, diagnostics_);
-        const ParamSet values = read_parameters(*table, schema.parameters, context, diagnostics_);
-        if (has(values, "frames")) animation_.frames = integer(values, "frames");
-        animation_.fps = std::get<double>(values.get("fps"));
+        read(*table, own_tables().animation, context, animation_);
         if (const TableNode::Entry* const orbit = table->find("orbit")) read_orbit(*orbit);
         if (const TableNode::Entry* const tracks = table->find("track")) read_tracks(*tracks);
         if (diagnostics_.error_count() != errors) return std::nullopt;
@@ -93,11 +88,15 @@ class AnimationReader {
                 fmt::format("'orbit' is {}; expected the table [animation.orbit]", description(entry.node)));
             return;
         }
-        const TableSchema& schema = inner_schema("orbit");
+        const TableSchema& schema = own_tables().orbit.about();
         const TableContext context{schema.title, {}, entry.key_place};
         report_unknown_keys(*table, names_in(schema.parameters), context, diagnostics_);
-        const ParamSet values = read_parameters(*table, schema.parameters, context, diagnostics_);
-        animation_.orbit = Orbit{std::get<double>(values.get("turns"))};
+        read(*table, own_tables().orbit, context, animation_.orbit.emplace());
+    }
+
+    template <class T>
+    void read(const TableNode& node, const Table<T>& table, const TableContext& context, T& to) {
+        table.assign(&node, read_parameters(node, table.schema(), context, diagnostics_), to);
     }
 
     void read_tracks(const TableNode::Entry& entry) {
@@ -113,30 +112,26 @@ class AnimationReader {
     }
 
     void read_track(const TableNode& table, const SourceLocation& place) {
-        const TableSchema& schema = inner_schema("track");
+        const TableSchema& schema = own_tables().track.about();
         const TableContext context{schema.title, {}, place};
         report_unknown_keys(table, names_in(schema.parameters), context, diagnostics_);
-        std::vector<Parameter> plain = schema.parameters;
-        std::erase_if(plain, [](const Parameter& p) { return p.name == "keys"; });
-        const ParamSet values = read_parameters(table, plain, context, diagnostics_);
+        Track track;
+        read(table, own_tables().track, context, track);
         const TableNode::Entry* const keys = table.find("keys");
         if (keys == nullptr) {
             diagnostics_.error(place, fmt::format("{} has no 'keys': a list of [time, value]", schema.title),
                                "for example: keys = [[0.0, 1.0], [2.5, 3.0]]");
         }
-        if (!has(values, "path")) return;
-        const std::string path = text(values, "path");
-        const SourceLocation& path_place = table.find("path")->node.place;
-        const auto parameter = parameter_at(path, path_place);
+        const TableNode::Entry* const path = table.find("path");
+        if (path == nullptr || !std::holds_alternative<std::string>(path->node.value)) return;
+        const SourceLocation& path_place = path->node.place;
+        const auto parameter = parameter_at(track.path, path_place);
         if (!parameter || keys == nullptr) return;
-        Track track{.path = path, .type = parameter->type, .keys = {}, .interpolation = Interpolation::step};
-        for (const Interpolation way : {Interpolation::linear, Interpolation::smooth}) {
-            if (name_of(way) == text(values, "interpolation")) track.interpolation = way;
-        }
+        track.type = parameter->type;
         read_keys(keys->node, *parameter, track);
         if (track.keys.empty()) return;
         if (track.interpolation != Interpolation::step) check_interpolation(table, *parameter, track);
-        if (!is_overridden(path, path_place)) animation_.tracks.push_back(std::move(track));
+        if (!is_overridden(track.path, path_place)) animation_.tracks.push_back(std::move(track));
     }
 
     void read_keys(const Node& node, const Parameter& parameter, Track& track) {

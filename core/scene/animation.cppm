@@ -5,7 +5,6 @@ module;
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 export module candela.scene:animation;
@@ -17,13 +16,10 @@ export namespace candela {
 
 /// How a value changes from one key to the next.
 enum class Interpolation : int {
-    step,    // it stays until the next key
     linear,  // in a straight line
+    step,    // it stays until the next key
     smooth,  // along a Catmull-Rom spline through all keys
 };
-
-/// "step", "linear", "smooth".
-CANDELA_EXPORT std::string_view name_of(Interpolation interpolation) noexcept;
 
 /// The value of a track at one time.
 struct Key {

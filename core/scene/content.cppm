@@ -28,9 +28,16 @@ struct Room {
     friend bool operator==(const Room&, const Room&) = default;
 };
 
+/// How overlapping objects are treated.
+enum class Overlap : int {
+    error,
+    warn,
+    allow,  // not checked
+};
+
 /// How strictly a scene as a whole is checked.
 struct ConstraintSettings {
-    std::optional<Severity> overlap = Severity::error;  // of objects with each other; none: not checked
+    Overlap overlap = Overlap::error;
 
     friend bool operator==(const ConstraintSettings&, const ConstraintSettings&) = default;
 };
@@ -118,7 +125,7 @@ struct Object {
     Label label;
     Model shape;
     Transform transform;
-    Vec3 color;                   // 0-255
+    Vec3 color{200, 200, 200};    // 0-255
     std::string color_texture{};  // absolute path of a picture that multiplies `color`; empty: none
     TextureWrap color_texture_wrap = TextureWrap::repeat;
     bool encloses = false;  // others may be inside; drawn from both sides

@@ -2,13 +2,11 @@
 module;
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
 #include <string>
-#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -81,11 +79,6 @@ bool operator==(const Animation& a, const Animation& b) {
     // clang 22 does not find Orbit's own comparison for std::optional's.
     const bool is_same_orbit = a.orbit && b.orbit ? *a.orbit == *b.orbit : !a.orbit && !b.orbit;
     return a.frames == b.frames && a.fps == b.fps && a.tracks == b.tracks && is_same_orbit;
-}
-
-std::string_view name_of(Interpolation interpolation) noexcept {
-    constexpr std::array<std::string_view, 3> k_names = {"step", "linear", "smooth"};
-    return k_names[static_cast<std::size_t>(interpolation)];
 }
 
 Value value_at(const Track& track, double time) {

@@ -18,6 +18,7 @@ module;
 
 module candela.scene;
 
+import :fields;
 import :merge;
 import :models;
 import :reading;
@@ -50,11 +51,11 @@ class Reader {
             {.where = "the scene", .help = {}, .place = tables_.whole(), .hint = hints_for("", registry_)},
             diagnostics_);
         draft_.files = files_;
-        read_room();
+        tables_.read(own_tables().room, scene_.room);
         draft_.has_room = tables_.has_valid("room", {"height", "width", "depth"});
         read_observer();
         read_image();
-        read_constraints();
+        tables_.read(own_tables().constraints, scene_.constraints);
         each("light", [&](const TableNode& table, const SourceLocation& place, std::size_t i) {
             read_light(table, place, i);
         });
@@ -93,11 +94,6 @@ class Reader {
         }
     }
 
-    void read_room() {
-        const ParamSet values = tables_.read_plain("room");
-        scene_.room = {real(values, "height"), real(values, "width"), real(values, "depth")};
-    }
-
     void read_observer() {
         draft_.has_observer = false;
         if (tables_.root().find("observer") == nullptr) {
@@ -105,24 +101,13 @@ class Reader {
                                "write: [observer] with position and look_at");
             return;
         }
-        const ParamSet values = tables_.read_plain("observer");
         Observer& observer = scene_.observer;
+        tables_.read(own_tables().observer, observer);
         // A unit vector is preserved exactly, so that a written scene reads back as the same scene.
-        const Vec3 up = vector(values, "up");
-        observer.up = std::abs(length(up) - 1) < 1e-6f ? up : normalized(up);
-        observer.projection =
-            text(values, "projection") == "orthographic" ? Projection::orthographic : Projection::perspective;
-        observer.fov = real(values, "fov");
-        observer.height = real(values, "height");
-        observer.frame_aspect = real(values, "frame_aspect");
+        if (std::abs(length(observer.up) - 1) >= 1e-6f) observer.up = normalized(observer.up);
         const TableNode* const table = tables_.single("observer");
         if (table == nullptr) return;
-        if (tables_.has_valid("observer", {"position"})) {
-            draft_.has_observer = true;
-            observer.position = vector(values, "position");
-            observer.position_place = table->find("position")->node.place;
-        }
-        if (tables_.has_valid("observer", {"look_at"})) observer.look_at = vector(values, "look_at");
+        draft_.has_observer = tables_.has_valid("observer", {"position"});
         if (tables_.has_valid("observer", {"position", "look_at", "up"})) check_view(*table);
         if (tables_.has_valid("observer", {"projection"})) warn_of_unused(*table);
     }
@@ -145,40 +130,27 @@ class Reader {
 
     void warn_of_unused(const TableNode& table) {
         const bool perspective = scene_.observer.projection == Projection::perspective;
-        if (const TableNode::Entry* const unused = table.find(perspective ? "height" : "fov")) {
-            diagnostics_.warning(unused->key_place,
-                                 fmt::format("'{}' has no effect in a{} view", unused->key,
+        for (const Field<Observer>& field : own_tables().observer.fields()) {
+            const TableNode::Entry* const entry = table.find(field.parameter.name);
+            if (entry == nullptr || field.has_no_effect == nullptr || !field.has_no_effect(scene_.observer))
+                continue;
+            diagnostics_.warning(entry->key_place,
+                                 fmt::format("'{}' has no effect in a{} view", entry->key,
                                              perspective ? " perspective" : "n orthographic"));
         }
     }
 
     void read_image() {
-        const ParamSet values = tables_.read_plain("image");
-        scene_.image = {.width = integer(values, "width"),
-                        .height = integer(values, "height"),
-                        .samples = integer(values, "samples"),
-                        .background = vector(values, "background"),
-                        .environment = text(values, "environment"),
-                        .color_management = text(values, "color_management") == "none" ? ColorEncoding::none
-                                                                                       : ColorEncoding::srgb};
+        tables_.read(own_tables().image, scene_.image);
         const TableNode* const table = tables_.single("image");
         draft_.picture_place = tables_.context_of("image").place;
         for (const char* const key : {"width", "height"}) {
             if (table != nullptr && table->find(key) != nullptr)
                 draft_.picture_place = table->find(key)->node.place;
         }
-        const TableNode::Entry* const environment = table != nullptr ? table->find("environment") : nullptr;
-        if (environment == nullptr) return;
-        scene_.image.environment_place = environment->node.place;
+        if (table == nullptr || table->find("environment") == nullptr) return;
         if (const TableNode::Entry* const unused = table->find("background"))
             diagnostics_.warning(unused->key_place, "'background' has no effect with an environment");
-    }
-
-    void read_constraints() {
-        const ParamSet values = tables_.read_plain("constraints");
-        const std::string& overlap = text(values, "overlap");
-        if (overlap == "allow") scene_.constraints.overlap.reset();
-        if (overlap == "warn") scene_.constraints.overlap = Severity::warning;
     }
 
     template <class Visit>
@@ -235,7 +207,7 @@ class Reader {
         const Label label = label_of("light", table, index);
         const TableContext context{
             fmt::format("[[light]] {}", short_text(label)), {Help::Topic::plugins_of_kind, "light"}, place};
-        const ParamSet own = read_parameters(table, schema_of("light").parameters, context, diagnostics_);
+        const ParamSet own = read_parameters(table, own_tables().light.schema(), context, diagnostics_);
         std::optional<Model> model = read_typed("light", PluginKind::light, table, own, context, {});
         // Its position can be checked whatever else is wrong with it.
         const Parameter* const position =
@@ -248,20 +220,13 @@ class Reader {
                      ModelChooser& models) {
         Object object;
         object.label = label_of("object", table, index);
-        object.place = place;
+        object.place = object.position_place = object.texture_place = place;
         const std::size_t errors = diagnostics_.error_count();
         const TableContext context{fmt::format("[[object]] {}", short_text(object.label)),
                                    {Help::Topic::plugins_of_kind, "shape"},
                                    place};
-        object.position_place = place_of(table, "position", place);
-        const ParamSet own = read_parameters(table, schema_of("object").parameters, context, diagnostics_);
-        object.transform = {vector(own, "position"), vector(own, "rotation"), vector(own, "scale")};
-        object.color = vector(own, "color");
-        object.color_texture = text(own, "color_texture");
-        object.color_texture_wrap =
-            text(own, "color_texture_wrap") == "clamp" ? TextureWrap::clamp : TextureWrap::repeat;
-        object.texture_place = place_of(table, "color_texture", place);
-        object.encloses = boolean(own, "encloses");
+        const ParamSet own = read_parameters(table, own_tables().object.schema(), context, diagnostics_);
+        own_tables().object.assign(&table, own, object);
         auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"});
         object.shading = models.shading_for(table);
         object.reflection = models.reflection_for(table, short_text(object.label), place);

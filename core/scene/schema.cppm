@@ -26,10 +26,10 @@ struct PluginKey {
 
 /// The allowed contents of one table of the scene file, apart from what plugins declare.
 struct TableSchema {
-    std::string name;   // "image", "light"
-    std::string title;  // as written in a file: "[image]", "[[light]]"
+    std::string name{};  // "image", "light"
+    std::string title;   // as written in a file: "[image]", "[[light]]"
     std::string meaning;
-    std::vector<Parameter> parameters;
+    std::vector<Parameter> parameters{};
     bool repeated = false;              // may occur any number of times
     std::vector<PluginKey> plugins{};   // which of the parameters name plugins
     std::vector<std::string> lists{};   // which of the parameters are lists of such values

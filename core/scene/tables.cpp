@@ -16,6 +16,7 @@ module;
 
 module candela.scene;
 
+import :fields;
 import :tables;
 import :vocabulary;
 import candela.api;
@@ -38,14 +39,6 @@ const Parameter* parameter_named(std::span<const Parameter> schema, std::string_
     return found != schema.end() ? &*found : nullptr;
 }
 
-float real(const ParamSet& set, std::string_view name) {
-    return static_cast<float>(std::get<double>(set.get(name)));
-}
-int integer(const ParamSet& set, std::string_view name) {
-    return static_cast<int>(std::get<std::int64_t>(set.get(name)));
-}
-bool boolean(const ParamSet& set, std::string_view name) { return std::get<bool>(set.get(name)); }
-Vec3 vector(const ParamSet& set, std::string_view name) { return std::get<Vec3>(set.get(name)); }
 const std::string& text(const ParamSet& set, std::string_view name) {
     return std::get<std::string>(set.get(name));
 }
@@ -77,15 +70,14 @@ TableContext SceneTables::context_of(const std::string& name) const {
             .lists_keys = true};
 }
 
-ParamSet SceneTables::read_plain(const std::string& name) {
+ParamSet SceneTables::read_plain(const std::string& name, const SharedSchema& schema) {
     static const TableNode k_empty;
     const TableNode* const table = single(name);
-    const std::vector<Parameter>& parameters = schema_of(name).parameters;
     // A value that is not a table has been reported; don't report its missing keys as well.
-    if (table == nullptr && root_.find(name) != nullptr) return ParamSet(parameters);
+    if (table == nullptr && root_.find(name) != nullptr) return ParamSet(schema);
     const TableContext context = context_of(name);
-    if (table != nullptr) report_unknown_keys(*table, names_in(parameters), context, diagnostics_);
-    return read_parameters(table != nullptr ? *table : k_empty, parameters, context, diagnostics_);
+    if (table != nullptr) report_unknown_keys(*table, names_in(*schema), context, diagnostics_);
+    return read_parameters(table != nullptr ? *table : k_empty, schema, context, diagnostics_);
 }
 
 bool SceneTables::has_valid(const std::string& name, std::initializer_list<std::string_view> keys) {

@@ -16,6 +16,7 @@ module;
 
 module candela.scene;
 
+import :fields;
 import candela.api;
 import candela.plugins;
 import candela.util;
@@ -75,21 +76,19 @@ class Writer {
   public:
     std::string write(const Scene& scene) {
         text_ = "version = 1\n";
-        write_room(scene.room);
-        write_observer(scene.observer);
-        write_image(scene.image);
-        write_constraints(scene.constraints);
+        write(own_tables().room, scene.room);
+        write(own_tables().observer, scene.observer);
+        write(own_tables().image, scene.image);
+        write(own_tables().constraints, scene.constraints);
         if (scene.animation) write_animation(*scene.animation);
         if (!scene.objects.empty()) {
             shading_ = shared_shading(scene.objects);
             reflection_ = most_common(scene.objects, &Object::reflection).name;
-            begin("[shading]");
-            add("model", toml_text(shading_.name));
-            add_parameters(shading_.parameters, "[shading]");
+            begin(own_tables().shading.about());
+            for (const Field<Model>& field : own_tables().shading.fields()) add(field, shading_);
+            add_parameters(shading_.parameters, own_tables().shading.about().title);
             end();
-            begin("[reflection]");
-            add("model", toml_text(reflection_));
-            end();
+            write(own_tables().reflection, Model{.name = reflection_, .parameters = {}});
         }
         for (std::size_t i = 0; i < scene.lights.size(); ++i) write_light(scene.lights[i], i);
         for (std::size_t i = 0; i < scene.objects.size(); ++i) write_object(scene.objects[i], i);
@@ -97,7 +96,7 @@ class Writer {
     }
 
   private:
-    void begin(std::string_view title) { text_ += fmt::format("\n{}\n", title); }
+    void begin(const TableSchema& table) { text_ += fmt::format("\n{}\n", table.title); }
     void add(std::string_view key, std::string value) {
         entries_.emplace_back(toml_key(key), std::move(value));
     }
@@ -120,71 +119,46 @@ class Writer {
         }
     }
 
-    void write_room(const Room& room) {
-        begin("[room]");
-        add("height", toml_text(room.height));
-        add("width", toml_text(room.width));
-        add("depth", toml_text(room.depth));
-        end();
-    }
-
-    void write_observer(const Observer& observer) {
-        const Observer standard;
-        const bool perspective = observer.projection == Projection::perspective;
-        begin("[observer]");
-        add("position", vector_text(observer.position));
-        add("look_at", vector_text(observer.look_at));
-        add("up", vector_text(observer.up));
-        add("projection", perspective ? "\"perspective\"" : "\"orthographic\"");
+    /// Adds the value, unless the scene is the same without it.
+    template <class T>
+    void add(const Field<T>& field, const T& from) {
+        const Parameter& p = field.parameter;
+        const Value value = field.get(from);
         // A value without effect draws a warning; but if it was set, it is written again.
-        if (perspective || observer.fov != standard.fov) add("fov", toml_text(observer.fov));
-        if (!perspective || observer.height != standard.height) add("height", toml_text(observer.height));
-        if (observer.frame_aspect != standard.frame_aspect)
-            add("frame_aspect", toml_text(observer.frame_aspect));
-        end();
+        const bool is_optional = !field.is_written || p.type == ParamType::file ||
+                                 (field.has_no_effect != nullptr && field.has_no_effect(from));
+        if (!is_optional || value != p.default_value) add(p.name, value_text(value, p.type));
     }
 
-    void write_image(const ImageSettings& image) {
-        begin("[image]");
-        add("width", fmt::format("{}", image.width));
-        add("height", fmt::format("{}", image.height));
-        add("samples", fmt::format("{}", image.samples));
-        add("background", color_text(image.background));
-        if (!image.environment.empty()) add("environment", toml_text(image.environment));
-        add("color_management", image.color_management == ColorEncoding::srgb ? "\"srgb\"" : "\"none\"");
-        end();
-    }
-
-    void write_constraints(const ConstraintSettings& constraints) {
-        begin("[constraints]");
-        add("overlap", !constraints.overlap                     ? "\"allow\""
-                       : constraints.overlap == Severity::error ? "\"error\""
-                                                                : "\"warn\"");
+    template <class T>
+    void write(const Table<T>& table, const T& from) {
+        begin(table.about());
+        for (const Field<T>& field : table.fields()) add(field, from);
         end();
     }
 
     void write_animation(const Animation& animation) {
-        begin("[animation]");
-        add("frames", fmt::format("{}", animation.frames));
-        add("fps", toml_text(animation.fps));
-        end();
-        if (animation.orbit) {
-            begin("[animation.orbit]");
-            add("turns", toml_text(animation.orbit->turns));
-            end();
-        }
+        write(own_tables().animation, animation);
+        if (animation.orbit) write(own_tables().orbit, *animation.orbit);
         for (const Track& track : animation.tracks) {
-            std::string keys;
-            for (const Key& key : track.keys) {
-                keys += fmt::format("{}[{}, {}]", keys.empty() ? "" : ", ", toml_text(key.time),
-                                    value_text(key.value, track.type));
+            begin(own_tables().track.about());
+            for (const Field<Track>& field : own_tables().track.fields()) {
+                if (field.get)
+                    add(field, track);
+                else
+                    add(field.parameter.name, keys_text(track));
             }
-            begin("[[animation.track]]");
-            add("path", toml_text(track.path));
-            add("keys", fmt::format("[{}]", keys));
-            add("interpolation", toml_text(name_of(track.interpolation)));
             end();
         }
+    }
+
+    static std::string keys_text(const Track& track) {
+        std::string keys;
+        for (const Key& key : track.keys) {
+            keys += fmt::format("{}[{}, {}]", keys.empty() ? "" : ", ", toml_text(key.time),
+                                value_text(key.value, track.type));
+        }
+        return fmt::format("[{}]", keys);
     }
 
     /// The model of [shading]. Only that table can set parameters of a shading model: an object that names a
@@ -204,34 +178,29 @@ class Writer {
         return told != nullptr ? told->shading : most_common(objects, &Object::shading);
     }
 
-    void add_name(const Label& label, std::size_t index) {
+    static void require_index(const Label& label, std::size_t index) {
         if (label.name.empty() && label.number != index)
             cannot_say(fmt::format("{} has the index {} and no name", label.text(), index));
-        if (!label.name.empty()) add("name", toml_text(label.name));
     }
 
     void write_light(const LightSource& light, std::size_t index) {
-        begin("[[light]]");
-        add_name(light.label, index);
-        add("type", toml_text(light.model.name));
+        require_index(light.label, index);
+        begin(own_tables().light.about());
+        for (const Field<LightSource>& field : own_tables().light.fields()) add(field, light);
         add_parameters(light.model.parameters, light.label.text());
         end();
     }
 
     void write_object(const Object& object, std::size_t index) {
-        begin("[[object]]");
-        add_name(object.label, index);
-        add("type", toml_text(object.shape.name));
-        add_parameters(object.shape.parameters, object.label.text());
-        add("position", vector_text(object.transform.position));
-        add("rotation", vector_text(object.transform.rotation));
-        add("scale", rgb_text(object.transform.scale));
-        add("color", color_text(object.color));
-        if (!object.color_texture.empty()) add("color_texture", toml_text(object.color_texture));
-        if (object.color_texture_wrap == TextureWrap::clamp) add("color_texture_wrap", "\"clamp\"");
-        add("encloses", object.encloses ? "true" : "false");
-        if (object.shading != shading_) add("shading", toml_text(object.shading.name));
-        if (object.reflection.name != reflection_) add("reflection", toml_text(object.reflection.name));
+        require_index(object.label, index);
+        begin(own_tables().object.about());
+        for (const Field<Object>& field : own_tables().object.fields()) {
+            const std::string& key = field.parameter.name;
+            if (key == "shading" && object.shading == shading_) continue;
+            if (key == "reflection" && object.reflection.name == reflection_) continue;
+            add(field, object);
+            if (key == "type") add_parameters(object.shape.parameters, object.label.text());
+        }
         end();
         if (object.reflection.parameters.schema().empty()) return;
         text_ += "[object.material]\n";

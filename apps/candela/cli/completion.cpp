@@ -150,7 +150,12 @@ constexpr OptionValues k_values_of_options[] = {
          return result;
      }},
     {"engine", [](candela::Registry&) { return std::vector<Completion>{{"local"}, {"slurm"}, {"print"}}; }},
-    {"samples", [](candela::Registry&) { return std::vector<Completion>{{"1"}, {"4"}, {"8"}, {"16"}}; }},
+    {"samples",
+     [](candela::Registry& r) {
+         std::vector<Completion> result = setting_completions("image.samples=", {}, r);
+         for (Completion& value : result) value.word.erase(0, value.word.find('=') + 1);
+         return result;
+     }},
     {"format", [](candela::Registry&) { return std::vector<Completion>{{"json"}, {"markdown"}}; }}};
 
 bool takes_value(const po::option_description& option) { return option.semantic()->max_tokens() > 0; }

@@ -10,6 +10,7 @@ module;
 
 module candela.scene:tables;
 
+import :fields;
 import :merge;
 import :schema;
 import :toml;
@@ -29,11 +30,7 @@ std::vector<std::string> names_in(std::span<const Parameter> schema, std::vector
 /// The parameter of that name, or null.
 const Parameter* parameter_named(std::span<const Parameter> schema, std::string_view name);
 
-// Values of a set, by name; they must be set.
-float real(const ParamSet& set, std::string_view name);
-int integer(const ParamSet& set, std::string_view name);
-bool boolean(const ParamSet& set, std::string_view name);
-Vec3 vector(const ParamSet& set, std::string_view name);
+/// A text, which must be set.
 const std::string& text(const ParamSet& set, std::string_view name);
 bool has(const ParamSet& set, std::string_view name);
 
@@ -51,8 +48,12 @@ class SceneTables {
     /// time.
     const TableNode* single(const std::string& name);
     TableContext context_of(const std::string& name) const;
-    /// All values of a table without a plugin.
-    ParamSet read_plain(const std::string& name);
+    /// Reads all keys of a table without a plugin into `to`.
+    template <class T>
+    void read(const Table<T>& table, T& to) {
+        const std::string& name = table.about().name;
+        table.assign(single(name), read_plain(name, table.schema()), to);
+    }
     /// Whether the table is valid as such, or missing, and all of these keys have valid values.
     bool has_valid(const std::string& name, std::initializer_list<std::string_view> keys);
     /// The installed plugin of that name, or null, with a message at `place`.
@@ -61,6 +62,8 @@ class SceneTables {
     ParamSet read_plugin(const TableNode& table, const PluginFile& plugin, const TableContext& context);
 
   private:
+    ParamSet read_plain(const std::string& name, const SharedSchema& schema);
+
     const TableNode& root_;
     SourceLocation whole_;
     Registry& registry_;
