@@ -1,17 +1,26 @@
 module;
 
+#include <sys/resource.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <boost/dll/runtime_symbol_info.hpp>
 #include <boost/dll/shared_library.hpp>
+#include <cstdint>
 #include <exception>
 #include <filesystem>
+#include <fstream>
+#include <ios>
+#include <latch>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -61,6 +70,11 @@ std::string missing_dependency(const std::string& message) {
     return at == std::string::npos ? std::string() : message.substr(0, at);
 }
 
+bool is_address_space_limited() {
+    rlimit limit{};
+    return ::getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+}
+
 /// The dynamic linker has several messages for it, or passes on the system's.
 bool is_for_want_of_memory(std::string_view message) {
     static constexpr std::array<std::string_view, 5> k_signs{
@@ -72,11 +86,40 @@ bool is_for_want_of_memory(std::string_view message) {
 constexpr std::string_view k_no_address_space =
     "not enough memory to load it; ulimit -v limits the address space";
 constexpr std::string_view k_no_threads =
-    "it needs more threads than can be started; raise the limit on processes (ulimit -u)";
+    "too few threads can be started; raise the limit on processes (ulimit -u)";
+
+/// Some third-party libraries start threads while they are loaded, and wait forever if they cannot.
+constexpr unsigned k_needed_threads = 8;
+
+/// Whether a limit on threads, of the user or of a container, may leave fewer than needed; takes next to no
+/// time.
+bool is_thread_limit_near() {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NPROC, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+        std::ifstream load("/proc/loadavg");  // "0.2 0.1 0.1 3/412 …": 412 tasks exist, of all users together
+        std::uint64_t tasks = 0;
+        load.ignore(std::numeric_limits<std::streamsize>::max(), '/') >> tasks;
+        if (limit.rlim_cur < tasks + k_needed_threads) return true;
+    }
+    std::uint64_t most = 0, current = 0;
+    return std::ifstream("/sys/fs/cgroup/pids.max") >> most &&
+           std::ifstream("/sys/fs/cgroup/pids.current") >> current && most < current + k_needed_threads;
+}
+
+bool can_start_threads() {
+    if (!is_thread_limit_near()) return true;
+    std::latch end(1);
+    std::vector<std::jthread> threads;
+    try {
+        while (threads.size() < k_needed_threads) threads.emplace_back([&] { end.wait(); });
+    } catch (const std::system_error&) {
+    }
+    end.count_down();
+    return threads.size() == k_needed_threads;
+}
 
 boost::dll::shared_library open_library(const fs::path& library) {
-    if (lacks_address_space(library)) refuse(library, std::string(k_no_address_space));
-    if (lacks_threads(library)) refuse(library, std::string(k_no_threads));
+    if (!can_start_threads()) refuse(library, std::string(k_no_threads));
     try {
         return boost::dll::shared_library(
             library, boost::dll::load_mode::rtld_now | boost::dll::load_mode::rtld_local);
@@ -86,11 +129,8 @@ boost::dll::shared_library open_library(const fs::path& library) {
             refuse(library, fmt::format("it needs {}, which is not installed here; install it, or put it "
                                         "where the plugin's RPATH looks for it",
                                         missing));
-        if (is_address_space_scarce() && is_for_want_of_memory(message))
+        if (is_address_space_limited() && is_for_want_of_memory(message))
             refuse(library, fmt::format("{} ({})", k_no_address_space, message));
-        // The system's error if a thread cannot be started.
-        if (message.find("Resource temporarily unavailable") != std::string::npos)
-            refuse(library, std::string(k_no_threads));
         refuse(library, fmt::format("it cannot be loaded ({}); build it again, or remove it", message));
     }
 }

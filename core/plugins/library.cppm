@@ -23,19 +23,6 @@ CANDELA_EXPORT const PluginDescriptor& load_plugin(const std::filesystem::path& 
 /// page.
 CANDELA_EXPORT std::string library_damage(const std::filesystem::path& library);
 
-/// Whether address space is limited (ulimit -v) and nearly exhausted, so that a large library may not fit.
-/// Any thread.
-CANDELA_EXPORT bool is_address_space_scarce();
-
-/// Whether address space is scarce, and too little is left to load a library and work with it. A third
-/// party's library that runs out of memory while it is loaded, or soon after, may silently end the process,
-/// so a child process tries it first. Any thread.
-CANDELA_EXPORT bool lacks_address_space(const std::filesystem::path& library);
-
-/// Whether few threads can be started (ulimit -u, or a container's limit) and the library starts some while
-/// it is loaded. Some libraries deadlock when a thread fails to start. Any thread.
-CANDELA_EXPORT bool lacks_threads(const std::filesystem::path& library);
-
 /// Rethrows a plugin's exception as an Error that names the plugin. Call it in a catch block.
 [[noreturn]] CANDELA_EXPORT void rethrow_as_plugin_error(PluginKind kind, std::string_view name);
 
