@@ -10,76 +10,34 @@
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
-#include <cstdlib>
-#include <cstring>
 #include <ctime>
 
 #include "candela/file_descriptor.h"
 #include "sandbox/directory_entries.h"
 
+using candela::FileDescriptor;
+
 namespace {
 
 constinit std::atomic<bool> are_to_end{false}, are_ending{false};
 
-/// A path under /proc, built without allocating.
-class ProcPath {
-  public:
-    ProcPath& add(const char* text) noexcept {
-        const std::size_t length = std::strlen(text);
-        if (size_ + length < sizeof text_) {
-            std::memcpy(text_ + size_, text, length + 1);
-            size_ += length;
-        }
-        return *this;
-    }
-    ProcPath& add(pid_t number) noexcept {
-        char digits[24] = {};
-        char* at = digits + sizeof digits - 1;
-        do {
-            *--at = static_cast<char>('0' + number % 10);
-            number /= 10;
-        } while (number > 0);
-        return add(at);
-    }
-    const char* c_str() const noexcept { return text_; }
-
-  private:
-    char text_[96] = "/proc/";
-    std::size_t size_ = 6;
-};
-
-/// Calls visit(pid) for each process that a thread has started.
+/// Calls visit(pid) for each process that this one has started, or inherited, and not waited for yet.
 template <class Visit>
-void for_each_child_of_thread(pid_t process, const char* thread, const Visit& visit) noexcept {
-    const candela::FileDescriptor file(::open(
-        ProcPath().add(process).add("/task/").add(thread).add("/children").c_str(), O_RDONLY | O_CLOEXEC));
-    if (!file.is_open()) return;
-    pid_t number = 0;
-    char c = 0;
-    while (::read(file.number(), &c, 1) == 1) {
-        if (c >= '0' && c <= '9') {
-            number = 10 * number + (c - '0');
-        } else if (number > 0) {
-            visit(number);
-            number = 0;
+void for_each_child(const Visit& visit) noexcept {
+    const FileDescriptor threads(::open("/proc/self/task", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    for_each_entry(threads.number(), [&](const char* name) {
+        const FileDescriptor thread(::openat(threads.number(), name, O_PATH | O_DIRECTORY | O_CLOEXEC));
+        const FileDescriptor file(::openat(thread.number(), "children", O_RDONLY | O_CLOEXEC));
+        pid_t number = 0;
+        for (char c = 0; ::read(file.number(), &c, 1) == 1;) {
+            if (c >= '0' && c <= '9') {
+                number = 10 * number + (c - '0');
+            } else if (number > 0) {
+                visit(number);
+                number = 0;
+            }
         }
-    }
-}
-
-template <class Visit>
-void for_each_child(pid_t process, const Visit& visit) noexcept {
-    const candela::FileDescriptor threads(
-        ::open(ProcPath().add(process).add("/task").c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-    if (!threads.is_open()) return;
-    for_each_entry(threads.number(),
-                   [&](const char* thread) { for_each_child_of_thread(process, thread, visit); });
-}
-
-/// `levels`: the recursion limit, to spare a signal handler's stack.
-void kill_tree(pid_t process, int levels) noexcept {
-    ::kill(process, SIGSTOP);  // so that it starts no others
-    if (levels > 0) for_each_child(process, [&](pid_t child) { kill_tree(child, levels - 1); });
-    ::kill(process, SIGKILL);
+    });
 }
 
 }  // namespace
@@ -89,12 +47,11 @@ void inherit_orphans() noexcept { ::prctl(PR_SET_CHILD_SUBREAPER, 1); }
 void let_descendants_end() noexcept {
     constexpr int k_rounds = 500, k_empty_rounds = 3;
     constexpr timespec k_pause{.tv_sec = 0, .tv_nsec = 10'000'000};
-    const pid_t self = ::getpid();
     are_ending = true;
     // Another thread may be about to start a process; the next round sees it.
     for (int i = 0, empty = 0; i < k_rounds && empty < k_empty_rounds; ++i) {
         ++empty;
-        for_each_child(self, [&](pid_t child) {
+        for_each_child([&](pid_t child) {
             empty = 0;
             ::kill(child, SIGTERM);
             ::kill(child, SIGCONT);
@@ -105,16 +62,15 @@ void let_descendants_end() noexcept {
 }
 
 void end_descendants() noexcept {
-    constexpr int k_levels = 12, k_generations = 20;
-    const pid_t self = ::getpid();
+    constexpr int k_generations = 30;
     are_ending = true;
-    // Processes orphaned by this have become children.
+    inherit_orphans();  // whose parents this kills
     for (int i = 0; i < k_generations; ++i) {
         // Does not wait for any child: one that another thread starts meanwhile may never end.
         std::array<pid_t, 64> killed{};
         std::size_t count = 0;
-        for_each_child(self, [&](pid_t child) {
-            kill_tree(child, k_levels);
+        for_each_child([&](pid_t child) {
+            ::kill(child, SIGKILL);
             if (count < killed.size()) killed[count++] = child;
         });
         if (count == 0) return;
