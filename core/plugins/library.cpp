@@ -1,14 +1,16 @@
 module;
 
-#include <sys/resource.h>
-
+#include <elf.h>
 #include <fmt/format.h>
+#include <link.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
 #include <boost/dll/runtime_symbol_info.hpp>
 #include <boost/dll/shared_library.hpp>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <fstream>
@@ -17,6 +19,7 @@ module;
 #include <limits>
 #include <map>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -135,6 +138,13 @@ boost::dll::shared_library open_library(const fs::path& library) {
     }
 }
 
+/// Reads an object at this offset; returns false if the file ends before.
+template <class Object>
+bool read_at(RegularFile& file, std::uint64_t offset, Object& object) {
+    const std::span<char> bytes(reinterpret_cast<char*>(&object), sizeof object);
+    return file.seek(offset) && file.read(bytes) == bytes.size();
+}
+
 /// The parts of the manifest that contradict the library.
 std::string differences(const Manifest& written, const Manifest& actual) {
     std::string parts;
@@ -162,6 +172,29 @@ std::string differences(const Manifest& written, const Manifest& actual) {
 }
 
 }  // namespace
+
+std::string library_damage(const fs::path& library) {
+    constexpr unsigned char k_class = sizeof(void*) == 8 ? ELFCLASS64 : ELFCLASS32;
+    RegularFile file(library);
+    // An error that may be temporary says nothing about the library.
+    if (!file.is_open())
+        throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", library.string()));
+    ElfW(Ehdr) header{};
+    if (!read_at(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
+        header.e_ident[EI_CLASS] != k_class)
+        return "it is not an ELF shared library for this machine";
+    const auto holds = [&](std::uint64_t offset, std::uint64_t count) {
+        return offset <= file.size() && count <= file.size() - offset;
+    };
+    // The section table is at the end of the file; stripped libraries may lack it.
+    bool is_complete = header.e_shnum == 0 || holds(header.e_shoff, header.e_shnum * sizeof(ElfW(Shdr)));
+    for (std::uint64_t i = 0; is_complete && i < header.e_phnum; ++i) {
+        ElfW(Phdr) segment{};
+        is_complete = read_at(file, header.e_phoff + i * sizeof segment, segment) &&
+                      holds(segment.p_offset, segment.p_filesz);
+    }
+    return is_complete ? std::string() : fmt::format("it is truncated after {} bytes", file.size());
+}
 
 const PluginDescriptor& load_plugin(const fs::path& path, const Manifest* manifest) {
     static std::mutex mutex;

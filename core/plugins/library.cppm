@@ -18,9 +18,9 @@ export namespace candela {
 CANDELA_EXPORT const PluginDescriptor& load_plugin(const std::filesystem::path& library,
                                                    const Manifest* manifest);
 
-/// Why a library is not a complete ELF file for this machine, found without running any of it; empty if it is
-/// one. The loader silently maps a truncated file, and the process ends with SIGBUS when it touches a missing
-/// page.
+/// Why a library is not an ELF file of the size that its headers say; empty if it is one. The loader silently
+/// maps a truncated file, and the process ends with SIGBUS when it touches a missing page. Throws Error
+/// (failure) if it cannot be read.
 CANDELA_EXPORT std::string library_damage(const std::filesystem::path& library);
 
 /// Rethrows a plugin's exception as an Error that names the plugin. Call it in a catch block.
