@@ -191,14 +191,12 @@ function(candela_add_plugin id)
 
     # Tests everything that a host relies on.
     if(TARGET candela::conformance AND (CANDELA_CONFORMANCE_TESTS OR NOT DEFINED CANDELA_CONFORMANCE_TESTS))
-        if(is_sanitized_too)
-            candela_find_symbolizer(symbolizer)
-            add_test(NAME "${id} has no data races"
-                COMMAND candela_threads $<TARGET_FILE:${target}_threads> ${PLUGIN_CONFORMANCE_VALUES})
-            set_tests_properties("${id} has no data races" PROPERTIES
-                LABELS conformance TIMEOUT 900 ENVIRONMENT "${symbolizer}")
-        endif()
         list(TRANSFORM PLUGIN_CONFORMANCE_VALUES PREPEND --set=)
+        if(is_sanitized_too)
+            candela_check_threads(check $<TARGET_FILE:${target}_threads>)
+            add_test(NAME "${id} has no data races" COMMAND ${check} ${PLUGIN_CONFORMANCE_VALUES})
+            set_tests_properties("${id} has no data races" PROPERTIES LABELS conformance TIMEOUT 900)
+        endif()
         if(NOT CANDELA_SANITIZE STREQUAL "thread" OR NOT is_instrumented)
             add_test(NAME "${id} conforms"
                 COMMAND candela::conformance $<TARGET_FILE:${target}> ${PLUGIN_CONFORMANCE_VALUES})

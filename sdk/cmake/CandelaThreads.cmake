@@ -1,14 +1,25 @@
-# Plugins under ThreadSanitizer: a second library of each, and a program that calls it from several threads at once.
+# Plugins under ThreadSanitizer: a second library of each, which the conformance kit calls from several threads at once.
 include_guard()
 
 set(CANDELA_THREADS_DIR ${CMAKE_CURRENT_LIST_DIR})
 
-# candela_find_thread_sanitizer(<variable>): whether the compiler can build programs with it.
+# candela_find_thread_sanitizer(<variable>): the sanitizer's library for programs that are not built with it; empty if the compiler
+# cannot build with it or comes without this library.
 function(candela_find_thread_sanitizer result)
     include(CheckCXXSourceCompiles)
     set(CMAKE_REQUIRED_FLAGS -fsanitize=thread)
     check_cxx_source_compiles("int main() { return 0; }" CANDELA_HAS_THREAD_SANITIZER)
-    set(${result} ${CANDELA_HAS_THREAD_SANITIZER} PARENT_SCOPE)
+    set(found)
+    if(CANDELA_HAS_THREAD_SANITIZER)
+        foreach(name libclang_rt.tsan.so libclang_rt.tsan-${CMAKE_SYSTEM_PROCESSOR}.so libtsan.so)
+            execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=${name}
+                OUTPUT_VARIABLE path OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+            if(NOT found AND IS_ABSOLUTE "${path}" AND EXISTS "${path}")
+                set(found ${path})
+            endif()
+        endforeach()
+    endif()
+    set(${result} "${found}" PARENT_SCOPE)
 endfunction()
 
 # candela_find_symbolizer(<variable>): the environment variables that make reports name lines: a symbolizer for clang's runtime,
@@ -27,22 +38,14 @@ function(candela_find_symbolizer result)
 endfunction()
 
 # candela_add_thread_sanitized(<target> SOURCES <file>... LIBRARIES <target>... [DATA <dir>]): for a target of
-# candela_add_plugin(), the same plugin as <target>_threads, and the program candela_threads, which is given that library.
+# candela_add_plugin(), the same plugin as <target>_threads. candela_check_threads() tests it.
 function(candela_add_thread_sanitized target)
     cmake_parse_arguments(PARSE_ARGV 1 ARG "" "DATA" "SOURCES;LIBRARIES")
     candela_find_thread_sanitizer(is_there)
     if(NOT is_there)
-        message(WARNING "CANDELA_SANITIZE is thread, but ${CMAKE_CXX_COMPILER} cannot build programs with -fsanitize=thread: data races are "
+        message(WARNING "CANDELA_SANITIZE is thread, but ${CMAKE_CXX_COMPILER} cannot build with -fsanitize=thread: data races are "
             "not detected (for clang 22, Debian's package libclang-rt-22-dev is missing)")
         return()
-    endif()
-    if(NOT TARGET candela_threads)
-        add_executable(candela_threads ${CANDELA_THREADS_DIR}/CandelaThreads.cpp)
-        target_compile_features(candela_threads PRIVATE cxx_std_20)
-        set_target_properties(candela_threads PROPERTIES CXX_STANDARD_REQUIRED ON CXX_SCAN_FOR_MODULES OFF)
-        target_compile_options(candela_threads PRIVATE -fsanitize=thread -g -O1)
-        target_link_options(candela_threads PRIVATE -fsanitize=thread)
-        target_link_libraries(candela_threads PRIVATE candela::sdk ${CMAKE_DL_LIBS})
     endif()
 
     set(sanitized ${target}_threads)
@@ -61,7 +64,7 @@ function(candela_add_thread_sanitized target)
     target_link_options(${sanitized} PRIVATE -fsanitize=thread
         -Wl,--version-script=${CANDELA_THREADS_DIR}/plugin.map)
     target_link_libraries(${sanitized} PRIVATE candela::sdk ${ARG_LIBRARIES})
-    add_dependencies(${sanitized} ${target} candela_threads)
+    add_dependencies(${sanitized} ${target})
     set(folder $<TARGET_FILE_DIR:${sanitized}>)
     set(data)
     if(ARG_DATA)
@@ -71,4 +74,13 @@ function(candela_add_thread_sanitized target)
     add_custom_command(TARGET ${sanitized} POST_BUILD
         COMMAND ${CMAKE_COMMAND} -E copy $<TARGET_FILE_DIR:${target}>/${file}.json ${folder} ${data}
         VERBATIM)
+endfunction()
+
+# candela_check_threads(<command> <library>): the command that runs the kit's checks with several threads on a library of
+# candela_add_thread_sanitized(). The kit is not built with the sanitizer, whose library is therefore loaded first.
+function(candela_check_threads result library)
+    candela_find_thread_sanitizer(sanitizer)
+    candela_find_symbolizer(symbolizer)
+    set(${result} ${CMAKE_COMMAND} -E env ${symbolizer} LD_PRELOAD=${sanitizer} $<TARGET_FILE:candela::conformance> ${library}
+        --in-process "--check=threads at once" PARENT_SCOPE)
 endfunction()

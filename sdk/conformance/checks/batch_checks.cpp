@@ -182,7 +182,7 @@ TEST_CASE("repeatable: the same input yields the same bytes, again and from 8 th
     // Threads with equal work would not notice that they share memory, so each has its own; and they switch
     // often, between small batches like a renderer's.
     constexpr std::size_t k_threads = 8, k_points = 256;
-    constexpr int k_rounds = 60;
+    constexpr int k_rounds = 60, k_creations = 10;
     constexpr auto k_longest = std::chrono::milliseconds(500), k_longest_in_all = 20 * k_longest;
     const auto end = std::chrono::steady_clock::now() + k_longest_in_all;
     std::vector<Arrays> in;
@@ -202,6 +202,15 @@ TEST_CASE("repeatable: the same input yields the same bytes, again and from 8 th
                 FAIL(call.name << " returns a different result when 8 threads call it at once, with "
                                << values.text);
         }
+        // Instances are also created in any thread.
+        const auto result_of_new = [&](std::size_t t) {
+            return outputs_of(batch_subject(values).calls.front(), in[t]);
+        };
+        std::vector<Arrays> alone;
+        for (std::size_t t = 0; t < k_threads; ++t) alone.push_back(result_of_new(t));
+        if (!hold_at_once(k_threads, k_creations, std::chrono::steady_clock::now(),
+                          [&](std::size_t t) { return result_of_new(t) == alone[t]; }))
+            FAIL("instances that 8 threads create at once return different results, with " << values.text);
     }
 }
 

@@ -407,6 +407,7 @@ TEST_CASE("truncated: a truncated file is refused, not read as a picture", "[ima
 
 TEST_CASE("repeatable: the same picture yields the same file, again and from 4 threads at once", "[image]") {
     const auto writer = make<ImageFormat>(default_values());
+    const TemporaryFolder folder("candela-image-");
     for (const FileFormat& format : subject().formats) {
         const auto written = [&](const Picture& picture) {
             Memory memory;
@@ -427,6 +428,22 @@ TEST_CASE("repeatable: the same picture yields the same file, again and from 4 t
         if (!hold_at_once(pictures.size(), k_rounds, std::chrono::steady_clock::now() + k_longest,
                           [&](std::size_t t) { return written(pictures[t]) == first[t]; }))
             FAIL("a ." << format.extension << " is a different file while other threads write");
+        if (!format.reads) continue;
+        const fs::path file = folder.path() / format.extension;
+        write_file(file, first.front());
+        const auto read = [&] {
+            ReadBack back;
+            try {
+                writer->read(file.c_str(), back);
+            } catch (const std::exception&) {
+                back.values.clear();
+            }
+            return back.values;
+        };
+        const std::vector<float> alone = read();
+        if (!hold_at_once(pictures.size(), k_rounds, std::chrono::steady_clock::now() + k_longest,
+                          [&](std::size_t) { return read() == alone; }))
+            FAIL("a ." << format.extension << " is a different picture while other threads read it");
     }
 }
 

@@ -393,12 +393,13 @@ TEST_CASE("a library under another name, or with a missing dependency, is named"
     CHECK(verdicts.messages("handshake").find("Bad file descriptor") == std::string::npos);
 }
 
-#ifdef CANDELA_TEST_THREADS
+#ifdef CANDELA_TEST_THREAD_SANITIZER
 TEST_CASE(
     "a data race that does not change results is found by ThreadSanitizer, if a plugin is built with it") {
     const auto threads = [](const std::string& name) {
         const fs::path library = fs::path(CANDELA_TEST_THREADS_PLUGINS) / (name + ".so");
-        return run_program({"env", CANDELA_TEST_SYMBOLIZER, CANDELA_TEST_THREADS, library.string()});
+        return run_program({"env", CANDELA_TEST_SYMBOLIZER, CANDELA_TEST_THREAD_SANITIZER, CANDELA_TEST_KIT,
+                            library.string(), "--in-process", "--check=threads at once"});
     };
     CHECK(judged(library_of("reflection-counts-its-calls")).exit_code == 0);
     const CommandResult racing = threads("reflection-counts-its-calls");
