@@ -3,11 +3,13 @@
 module;
 
 #include "candela/color.h"
+#include "candela/extensions.h"
 #include "candela/image_format.h"
 #include "candela/light.h"
 #include "candela/math.h"
 #include "candela/parallel.h"
 #include "candela/plugin/descriptor.h"
+#include "candela/plugin/needs.h"
 #include "candela/plugin/params.h"
 #include "candela/pool.h"
 #include "candela/punctual.h"
@@ -43,6 +45,15 @@ using candela::PluginDescriptor;
 using candela::PluginKind;
 using candela::Property;
 
+// candela/extensions.h
+using candela::AllLightsReflection;
+using candela::Environment;
+using candela::EnvironmentReflection;
+using candela::ExitBatch;
+using candela::extension_of;
+using candela::PunctualSource;
+using candela::UniformAmbientSource;
+
 // candela/image_format.h
 using candela::ByteSink;
 using candela::ImageFormat;
@@ -74,6 +85,10 @@ using candela::FunctionRef;
 using candela::parallel_for;
 using candela::with_threads;
 
+// candela/plugin/needs.h
+using candela::ShadingNeeds;
+using candela::SurfaceNeeds;
+
 // candela/plugin/params.h
 using candela::k_no_maximum;
 using candela::k_no_minimum;
@@ -100,8 +115,6 @@ using candela::PunctualLight;
 using candela::PunctualLighting;
 
 // candela/reflection_model.h
-using candela::Environment;
-using candela::ExitBatch;
 using candela::LightingBatch;
 using candela::ReflectedBatch;
 using candela::ReflectionModel;
@@ -110,7 +123,6 @@ using candela::SurfaceBatch;
 // candela/shading_model.h
 using candela::MeshView;
 using candela::ShadingModel;
-using candela::ShadingNeeds;
 using candela::ShadingPointBatch;
 using candela::ShadingRate;
 using candela::TriangleBatch;

@@ -165,6 +165,9 @@ std::string differences(const Manifest& written, const Manifest& actual) {
     compare("properties", written.properties == actual.properties);
     compare("presets", written.presets == actual.presets);
     compare("formats", written.formats == actual.formats);
+    compare("ambient part", written.has_ambient == actual.has_ambient);
+    compare("needs",
+            written.surface_needs == actual.surface_needs && written.shading_needs == actual.shading_needs);
     compare("kernel", written.has_kernel == actual.has_kernel &&
                           written.kernel_prefix == actual.kernel_prefix &&
                           written.kernel_parameters == actual.kernel_parameters);

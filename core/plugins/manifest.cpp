@@ -5,6 +5,7 @@ module;
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -85,6 +86,36 @@ Json json_of(const Preset& p, const std::vector<Parameter>& parameters) {
     return json;
 }
 
+constexpr std::array<std::pair<const char*, bool SurfaceNeeds::*>, 3> k_surface_needs{
+    {{"tangent", &SurfaceNeeds::tangent}, {"uv", &SurfaceNeeds::uv}, {"position", &SurfaceNeeds::position}}};
+constexpr std::array<std::pair<const char*, bool ShadingNeeds::*>, 7> k_shading_needs{
+    {{"face_normal", &ShadingNeeds::face_normal},
+     {"vertex_normal", &ShadingNeeds::vertex_normal},
+     {"barycentric", &ShadingNeeds::barycentric},
+     {"uv", &ShadingNeeds::uv},
+     {"derivatives", &ShadingNeeds::derivatives},
+     {"triangle", &ShadingNeeds::triangle},
+     {"default_vertex_normals", &ShadingNeeds::default_vertex_normals}}};
+
+/// The names of what is needed.
+template <class Members, class Needs>
+Json json_of(const Members& members, const Needs& needs) {
+    Json names = Json::array();
+    for (const auto& [name, member] : members) {
+        if (needs.*member) names.push_back(name);
+    }
+    return names;
+}
+
+template <class Members, class Needs>
+void read_needs(const Json& names, const Members& members, Needs& needs) {
+    for (const auto& [known, member] : members) needs.*member = false;
+    for (const Json& name : names) {
+        for (const auto& [known, member] : members)
+            needs.*member = needs.*member || name.get_ref<const std::string&>() == known;
+    }
+}
+
 Json json_of(const Manifest& m) {
     Json json;
     json["candela_manifest"] = k_manifest_version;
@@ -121,6 +152,9 @@ Json json_of(const Manifest& m) {
                                        {"layers", f.layers}});
         }
     }
+    if (m.has_ambient) json["has_ambient"] = true;
+    if (m.surface_needs != SurfaceNeeds{}) json["needs"] = json_of(k_surface_needs, m.surface_needs);
+    if (m.kind == PluginKind::shading) json["needs"] = json_of(k_shading_needs, m.shading_needs);
     if (m.has_kernel) json["kernel"] = {{"prefix", m.kernel_prefix}, {"parameters", m.kernel_parameters}};
     return json;
 }
@@ -273,6 +307,11 @@ Manifest manifest_from(const Json& json) {
                                  pixels, f.at("reads").get<bool>(), f.at("layers").get<bool>()});
         }
     }
+    m.has_ambient = json.contains("has_ambient") && json["has_ambient"].get<bool>();
+    if (const auto needs = json.find("needs"); needs != json.end()) {
+        if (m.kind == PluginKind::reflection) read_needs(*needs, k_surface_needs, m.surface_needs);
+        if (m.kind == PluginKind::shading) read_needs(*needs, k_shading_needs, m.shading_needs);
+    }
     m.has_kernel = json.contains("kernel");
     if (m.has_kernel) {
         m.kernel_prefix = json["kernel"].at("prefix").get<std::string>();
@@ -321,6 +360,9 @@ Manifest manifest_of(const PluginDescriptor& d, std::string_view abi) {
     for (const PresetSpec& p : d.presets) m.presets.push_back(preset_of(p, d.parameters));
     for (const FileFormat& f : d.formats)
         m.formats.push_back({f.extension, f.title, f.pixels, f.reads, f.layers});
+    m.has_ambient = d.has_ambient;
+    m.surface_needs = d.surface_needs;
+    m.shading_needs = d.shading_needs;
     m.has_kernel = d.kernel.text != nullptr && d.kernel.prefix != nullptr;
     if (m.has_kernel) {
         m.kernel_prefix = d.kernel.prefix;

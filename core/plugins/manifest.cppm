@@ -42,6 +42,9 @@ struct CANDELA_EXPORT Manifest {
     std::vector<std::pair<std::string, std::string>> properties;
     std::vector<Preset> presets;
     std::vector<ManifestFormat> formats;
+    bool has_ambient = false;  // see PluginDescriptor, like the next two
+    SurfaceNeeds surface_needs{};
+    ShadingNeeds shading_needs{};
     bool has_kernel = false;    // its mathematics can be exported; the text is in the library
     std::string kernel_prefix;  // see KernelText
     std::string kernel_parameters;

@@ -340,12 +340,15 @@ const PluginDescriptor& Registry::load(const PluginFile& file) {
     return *known.descriptor;
 }
 
+const PluginDescriptor& Registry::descriptor(PluginKind kind, std::string_view name) {
+    return load(require(kind, name));
+}
+
 std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string_view name,
                                                     const ParamSet& values, ColorEncoding encoding) {
-    const PluginFile& file = require(kind, name);
-    const PluginDescriptor& descriptor = load(file);
+    const PluginDescriptor& plugin = descriptor(kind, name);
     try {
-        std::unique_ptr<Instance> instance(descriptor.create(values.runtime(encoding)));
+        std::unique_ptr<Instance> instance(plugin.create(values.runtime(encoding)));
         if (instance == nullptr) throw std::runtime_error("created nothing");
         return instance;
     } catch (...) {

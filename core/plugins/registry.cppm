@@ -115,6 +115,9 @@ class CANDELA_EXPORT Registry {
     /// A plugin's parameter set, filled with defaults. Throws Error like require().
     ParamSet parameters(PluginKind kind, std::string_view name);
 
+    /// Loads the plugin if necessary. Throws Error like require(), and if it cannot be loaded.
+    const PluginDescriptor& descriptor(PluginKind kind, std::string_view name);
+
     /// Loads the plugin if necessary and creates an instance. Throws Error, also for exceptions of the
     /// plugin.
     template <class Interface>

@@ -128,8 +128,14 @@ class Compiler {
                 compiled_.lights.push_back(std::move(before_->compiled.lights[i]));
                 continue;
             }
-            guarded("light " + light.label.text(), light.place,
-                    [&] { compiled_.lights.push_back({light.model.name, made<Light>(light.model)}); });
+            guarded("light " + light.label.text(), light.place, [&] {
+                RenderLight source{
+                    .plugin = light.model.name,
+                    .light = made<Light>(light.model),
+                    .has_ambient = registry_.descriptor(PluginKind::light, light.model.name).has_ambient};
+                source.data = data_of(source);
+                compiled_.lights.push_back(std::move(source));
+            });
         }
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
             const Object& object = scene_.objects[i];
@@ -143,12 +149,20 @@ class Compiler {
                 continue;
             }
             guarded("object " + object.label.text(), object.place, [&] {
-                solid.surface = {.color = decoded(object.color, encoding()),
-                                 .color_texture_wrap = object.color_texture_wrap,
-                                 .shading_plugin = object.shading.name,
-                                 .shading = made<ShadingModel>(object.shading),
-                                 .reflection_plugin = object.reflection.name,
-                                 .reflection = made<ReflectionModel>(object.reflection)};
+                solid.surface = {
+                    .color = decoded(object.color, encoding()),
+                    .color_texture_wrap = object.color_texture_wrap,
+                    .shading_plugin = object.shading.name,
+                    .shading = made<ShadingModel>(object.shading),
+                    .shading_needs =
+                        registry_.descriptor(PluginKind::shading, object.shading.name).shading_needs,
+                    .reflection_plugin = object.reflection.name,
+                    .reflection = made<ReflectionModel>(object.reflection),
+                    .reflection_needs =
+                        registry_.descriptor(PluginKind::reflection, object.reflection.name).surface_needs};
+                const ReflectionModel& model = *solid.surface.reflection;
+                solid.surface.all_lights_reflection = extension_of<AllLightsReflection>(model);
+                solid.surface.environment_reflection = extension_of<EnvironmentReflection>(model);
             });
         }
     }
@@ -220,7 +234,7 @@ class Compiler {
 
     /// Whether triangles that are flat need no normals at their vertices.
     static bool takes_facets(const SurfaceModels& surface) {
-        const ShadingNeeds needs = surface.shading->needs();
+        const ShadingNeeds& needs = surface.shading_needs;
         return needs.default_vertex_normals && surface.shading->shading_rate() != ShadingRate::vertex &&
                !needs.triangle && !surface.needs().derivatives;
     }
@@ -314,7 +328,7 @@ class Compiler {
     }
 
     static bool needs_tree(const RenderObject& solid) {
-        return solid.surface.reflection->shows_environment() && !solid.tree;
+        return solid.surface.environment_reflection != nullptr && !solid.tree;
     }
 
     void make_trees() {

@@ -90,7 +90,7 @@ class Receivers {
                         received.faced = std::max(received.faced, sent);
                 }
             }
-            if (!source.light->has_ambient()) continue;
+            if (!source.has_ambient) continue;
             source.light->illuminate_ambient(batch, diffuse_.span());
             for (std::size_t i = 0; i < count_; ++i)
                 received.ambient = std::max(received.ambient, largest(diffuse_.span()[i]));

@@ -83,9 +83,9 @@ class Exporter {
         result.textures = to_.textures;
         result.needs_uv = !to_.textures.empty() ||
                           std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.uv; }) ||
-                          std::ranges::any_of(to_.reflections, &ExportedReflection::needs_uv);
+                          std::ranges::any_of(to_.reflections, [](const auto& r) { return r.needs.uv; });
         result.needs_derivatives =
-            std::ranges::any_of(to_.reflections, &ExportedReflection::needs_tangent) ||
+            std::ranges::any_of(to_.reflections, [](const auto& r) { return r.needs.tangent; }) ||
             std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.derivatives; });
         to_.connect_tables();
         result.geometry = &to_;
@@ -126,15 +126,10 @@ class Exporter {
         return registry_.create<Interface>(name, values, scene_.image.color_management);
     }
 
-    /// The loaded plugin.
-    const PluginDescriptor& plugin(PluginKind kind, const std::string& name) {
-        return *registry_.require(kind, name).descriptor;
-    }
-
-    /// Like plugin(), for a model whose kernel must have these functions if the target needs kernels.
+    /// The plugin of a model, whose kernel must have these functions if the target needs kernels.
     const PluginDescriptor& model(PluginKind kind, const std::string& name,
                                   const std::vector<const char*>& functions) {
-        const PluginDescriptor& loaded = plugin(kind, name);
+        const PluginDescriptor& loaded = registry_.descriptor(kind, name);
         if (request_.abilities.models_without_kernel) return loaded;
         const std::string id = fmt::format("{}/{}", name_of(kind), name);
         if (loaded.kernel.text == nullptr)
@@ -150,28 +145,24 @@ class Exporter {
     const char* kept(std::string label) { return to_.labels.emplace_back(std::move(label)).c_str(); }
 
     void add(const LightSource& light) {
-        const auto made_light = made<Light>(light.model.name, light.model.parameters);
+        const RenderLight source{
+            .plugin = light.model.name,
+            .light = made<Light>(light.model.name, light.model.parameters),
+            .has_ambient = registry_.descriptor(PluginKind::light, light.model.name).has_ambient};
         std::vector<const char*> functions;
-        if (made_light->sample_count() > 0) functions.push_back("illuminate");
-        if (made_light->has_ambient()) functions.push_back("illuminate_ambient");
+        if (source.light->sample_count() > 0) functions.push_back("illuminate");
+        if (source.has_ambient) functions.push_back("illuminate_ambient");
         const PluginDescriptor& loaded = model(PluginKind::light, light.model.name, functions);
         to_.lights.push_back({.label = kept(light.label.text()),
                               .model = put(to_.light_models, ExportedModel{&loaded}),
                               .values = to_.kept(loaded, light.model.parameters,
-                                                 [&]() -> const Light* { return made_light.get(); })});
-        add_data(*made_light, to_.lights.back());
-    }
-
-    /// A light's description of itself as data.
-    void add_data(const Light& from, ExportedLight& to) {
-        std::vector<PunctualLight> samples(static_cast<std::size_t>(from.sample_count()));
-        for (std::size_t i = 0; i < samples.size(); ++i)
-            if (!from.as_punctual(static_cast<int>(i), samples[i])) return;
-        Rgb ambient{};
-        if (from.has_ambient() && !from.as_ambient(ambient)) return;
-        to.ambient = ambient;
-        to.punctual = to_.punctual.emplace_back(std::move(samples));
-        to.is_data = true;
+                                                 [&]() -> const Light* { return source.light.get(); })});
+        if (auto data = data_of(source)) {
+            ExportedLight& to = to_.lights.back();
+            to.ambient = data->ambient;
+            to.punctual = to_.punctual.emplace_back(std::move(data->samples));
+            to.is_data = true;
+        }
     }
 
     void add_shading(const std::string& name, const ParamSet& values) {
@@ -179,7 +170,7 @@ class Exporter {
         ExportedShading exported;
         exported.plugin = &model(PluginKind::shading, name, {"normal"});
         exported.rate = instance->shading_rate();
-        exported.needs = instance->needs();
+        exported.needs = exported.plugin->shading_needs;
         if (exported.needs.triangle && !request_.abilities.triangle &&
             !request_.abilities.models_without_kernel) {
             throw Error(ErrorCategory::failure, fmt::format("shading/{} reads the vertices of its triangle, "
@@ -192,10 +183,8 @@ class Exporter {
     void add_reflection(const std::string& name, const ParamSet& values) {
         const auto instance = made<ReflectionModel>(name, values);
         ExportedReflection exported;
-        exported.needs_tangent = instance->needs_tangent();
-        exported.needs_position = instance->needs_position();
-        exported.needs_uv = instance->needs_uv();
-        exported.shows_surroundings = instance->shows_environment();
+        exported.needs = registry_.descriptor(PluginKind::reflection, name).surface_needs;
+        exported.shows_surroundings = extension_of<EnvironmentReflection>(*instance) != nullptr;
         if (exported.shows_surroundings && !request_.abilities.surroundings) {
             throw Error(ErrorCategory::failure,
                         fmt::format("reflection/{} shows what is behind and around an object by following "
@@ -305,9 +294,10 @@ class Exporter {
         ExportedObject exported{
             .label = kept(name_in(object.label)),
             .color = object.color,
-            .shape = {&plugin(PluginKind::shape, object.shape.name)},
-            .shape_values = to_.kept(plugin(PluginKind::shape, object.shape.name), object.shape.parameters,
-                                     [&]() -> const Shape* { return own.tessellator.get(); }),
+            .shape = {&registry_.descriptor(PluginKind::shape, object.shape.name)},
+            .shape_values =
+                to_.kept(registry_.descriptor(PluginKind::shape, object.shape.name), object.shape.parameters,
+                         [&]() -> const Shape* { return own.tessellator.get(); }),
             .transform = object.transform,
             .color_texture = texture_of(object),
             .color_texture_repeats = object.color_texture_wrap == TextureWrap::repeat};

@@ -163,7 +163,7 @@ void write_picture(const Film& film, const PictureFormat& format, OutputFile& fi
 
 bool can_write_rows(const PictureFormat& format, Registry& registry) {
     const auto writer = writer_of(format, registry, ColorEncoding::srgb);
-    const auto* const rows = dynamic_cast<const ScanlineImageFormat*>(writer.get());
+    const auto* const rows = extension_of<ScanlineImageFormat>(*writer);
     return rows != nullptr && rows->writes_rows(format.extension.c_str());
 }
 
@@ -171,7 +171,7 @@ void write_rows(const PictureView& whole, PictureRows& rows, const PictureFormat
                 const fs::path& path, Registry& registry, Existing existing) {
     const char* const extension = format.extension.c_str();
     write(format, path, registry, existing, whole.encoding, [&](const ImageFormat& writer, ByteSink& sink) {
-        const auto* const by_rows = dynamic_cast<const ScanlineImageFormat*>(&writer);
+        const auto* const by_rows = extension_of<ScanlineImageFormat>(writer);
         if (by_rows != nullptr && by_rows->writes_rows(extension))
             return by_rows->write_rows(whole, rows, extension, sink);
         const GatheredRows gathered(whole, rows);

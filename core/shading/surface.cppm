@@ -3,8 +3,10 @@ module;
 #include "candela/plugin/export.h"
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 export module candela.shading:surface;
 
@@ -17,11 +19,23 @@ import candela.scene;
 
 export namespace candela {
 
+/// A light as data.
+struct LightData {
+    std::vector<PunctualLight> samples;
+    Rgb ambient{};
+};
+
 /// A light, and the plugin it comes from.
 struct RenderLight {
     std::string plugin;
     std::unique_ptr<Light> light;
+    bool has_ambient = false;
+    std::optional<LightData> data{};  // empty: only the light itself knows
 };
+
+/// Asks the light to describe itself. Throws Error, naming the plugin, if that fails; empty if the light does
+/// not offer it.
+CANDELA_EXPORT std::optional<LightData> data_of(const RenderLight& source);
 
 /// The appearance of an object's surface.
 struct SurfaceModels {
@@ -30,8 +44,13 @@ struct SurfaceModels {
     TextureWrap color_texture_wrap = TextureWrap::repeat;
     std::string shading_plugin;
     std::unique_ptr<ShadingModel> shading;
+    ShadingNeeds shading_needs{};
     std::string reflection_plugin;
     std::unique_ptr<ReflectionModel> reflection;
+    SurfaceNeeds reflection_needs{};
+    // The extensions that `reflection` offers.
+    const AllLightsReflection* all_lights_reflection = nullptr;
+    const EnvironmentReflection* environment_reflection = nullptr;
 
     PointNeeds needs() const;
 };

@@ -14,6 +14,7 @@ module;
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -120,20 +121,34 @@ void clear(const Vec3Span& span, std::size_t count) {
 
 /// The number of points of a batch that are lit: whole vectors, unless rays are followed from each of them.
 std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
-    return surface.reflection->shows_environment() ? points.count : points.filled;
+    return surface.environment_reflection != nullptr ? points.count : points.filled;
 }
 
 }  // namespace
 
+std::optional<LightData> data_of(const RenderLight& source) {
+    std::optional<LightData> data;
+    guarded(PluginKind::light, source.plugin, [&] {
+        const int samples = source.light->sample_count();
+        const auto* const punctual = extension_of<PunctualSource>(*source.light);
+        const auto* const ambient = extension_of<UniformAmbientSource>(*source.light);
+        if ((samples > 0 && punctual == nullptr) || (source.has_ambient && ambient == nullptr)) return;
+        data.emplace();
+        for (int sample = 0; sample < samples; ++sample)
+            data->samples.push_back(punctual->as_punctual(sample));
+        if (source.has_ambient) data->ambient = ambient->as_ambient();
+    });
+    return data;
+}
+
 PointNeeds SurfaceModels::needs() const {
-    const ShadingNeeds needs = shading->needs();
-    return {.face_normal = needs.face_normal,
-            .vertex_normal = needs.vertex_normal,
-            .barycentric = needs.barycentric,
-            .uv = needs.uv || reflection->needs_uv() || color_texture != nullptr,
+    return {.face_normal = shading_needs.face_normal,
+            .vertex_normal = shading_needs.vertex_normal,
+            .barycentric = shading_needs.barycentric,
+            .uv = shading_needs.uv || reflection_needs.uv || color_texture != nullptr,
             .footprint = color_texture != nullptr,
-            .derivatives = needs.derivatives || reflection->needs_tangent(),
-            .triangle = needs.triangle};
+            .derivatives = shading_needs.derivatives || reflection_needs.tangent,
+            .triangle = shading_needs.triangle};
 }
 
 void apply_texture(const SurfaceModels& surface, SurfacePoints& points) {
@@ -153,7 +168,7 @@ void apply_texture(const SurfaceModels& surface, SurfacePoints& points) {
 }
 
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal) {
-    const ShadingNeeds needs = surface.shading->needs();
+    const ShadingNeeds& needs = surface.shading_needs;
     TriangleBatch triangle;
     const bool has_triangle = needs.triangle && surface.shading->shading_rate() != ShadingRate::vertex;
     for (std::size_t k = 0; has_triangle && k < 3; ++k) {
@@ -189,29 +204,18 @@ void SurfaceShader::begin(const LightingContext& scene) {
     lighting_ = {};
     for (const RenderLight& source : scene.lights) {
         lights_.push_back(&source);
-        if (!add_as_data(source)) other_lights_.push_back(&source);
+        if (!source.data) {
+            other_lights_.push_back(&source);
+            continue;
+        }
+        punctual_lights_.insert(punctual_lights_.end(), source.data->samples.begin(),
+                                source.data->samples.end());
+        lighting_.ambient = lighting_.ambient + source.data->ambient;
     }
     lighting_.lights = punctual_lights_;
     const bool is_perspective = scene.camera.projection == Projection::perspective;
     lighting_.observer = is_perspective ? scene.camera.eye : -scene.camera.forward;
     lighting_.w = is_perspective ? 1.0f : 0.0f;
-}
-
-bool SurfaceShader::add_as_data(const RenderLight& source) {
-    const std::size_t before = punctual_lights_.size();
-    Rgb ambient;
-    bool is_data = true;
-    guarded(PluginKind::light, source.plugin, [&] {
-        for (int sample = 0; is_data && sample < source.light->sample_count(); ++sample)
-            is_data = source.light->as_punctual(sample, punctual_lights_.emplace_back());
-        if (is_data && source.light->has_ambient()) is_data = source.light->as_ambient(ambient);
-    });
-    if (is_data) {
-        lighting_.ambient = lighting_.ambient + ambient;
-    } else {
-        punctual_lights_.resize(before);
-    }
-    return is_data;
 }
 
 std::array<Vec3Arrays*, 8> SurfaceShader::written_by_plugins() {
@@ -294,33 +298,34 @@ void SurfaceShader::check_steps(const SurfaceModels& surface, const Interior& in
 }
 
 bool SurfaceShader::reflect_all_lights(const SurfaceModels& surface, const SurfacePoints& points) {
-    if (other_lights_.size() == lights_.size() || surface.reflection->shows_environment()) return false;
+    if (other_lights_.size() == lights_.size() || surface.all_lights_reflection == nullptr ||
+        surface.environment_reflection != nullptr)
+        return false;
     const std::size_t count = lit_of(surface, points);
     find_tangents(surface, points, count);
     SurfaceBatch batch = lit_surface(surface, points, count);
     batch.to_observer = {};
-    bool is_done = false;
     guarded(PluginKind::reflection, surface.reflection_plugin,
-            [&] { is_done = surface.reflection->reflect_all_lights(batch, lighting_, reflected_.span()); });
-    return is_done;
+            [&] { surface.all_lights_reflection->reflect_all_lights(batch, lighting_, reflected_.span()); });
+    return true;
 }
 
 void SurfaceShader::find_tangents(const SurfaceModels& surface, const SurfacePoints& points,
                                   std::size_t count) {
-    if (surface.reflection->needs_tangent())
+    if (surface.reflection_needs.tangent)
         multiversion<TangentLoop>(points.dpdu.span(), std::as_const(normal_).span(), count, tangent_.span());
 }
 
 SurfaceBatch SurfaceShader::lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
                                         std::size_t count) const {
-    const ReflectionModel& model = *surface.reflection;
+    const SurfaceNeeds& needs = surface.reflection_needs;
     return {.count = count,
             .normal = normal_.span(),
             .to_observer = to_observer_.span(),
-            .tangent = model.needs_tangent() ? tangent_.span() : ConstVec3Span{},
+            .tangent = needs.tangent ? tangent_.span() : ConstVec3Span{},
             .color = surface.color,
             .position = points.position.span(),
-            .uv = model.needs_uv() ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
+            .uv = needs.uv ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
             .point_color = points.has_color ? points.color.span() : ConstVec3Span{}};
 }
 
@@ -353,7 +358,7 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
             });
             look_at(PluginKind::reflection, surface.reflection_plugin, {&diffuse_, &specular_});
         }
-        if (source.light->has_ambient()) {
+        if (source.has_ambient) {
             guarded(PluginKind::light, source.plugin,
                     [&] { source.light->illuminate_ambient(receivers, light_diffuse_.span()); });
             look_at(PluginKind::light, source.plugin, {&light_diffuse_});
@@ -362,12 +367,12 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
             look_at(PluginKind::reflection, surface.reflection_plugin, {&ambient_});
         }
     }
-    if (surface.reflection->shows_environment() && scene_.environment != nullptr) {
+    if (surface.environment_reflection != nullptr && scene_.environment != nullptr) {
         if (surroundings_ == nullptr)
             surroundings_ = std::make_unique<ObjectEnvironment>(*scene_.environment);
         surroundings_->set_object(surface, interior);
         guarded(PluginKind::reflection, surface.reflection_plugin,
-                [&] { surface.reflection->show_environment(batch, *surroundings_, reflected); });
+                [&] { surface.environment_reflection->show_environment(batch, *surroundings_, reflected); });
         look_at(PluginKind::reflection, surface.reflection_plugin, {&specular_});
     }
 }

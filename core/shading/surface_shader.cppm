@@ -63,11 +63,9 @@ class CANDELA_EXPORT SurfaceShader {
     /// Adds up, part by part, what the reflection model reflects of each of `lights`.
     void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
                 const Lights& lights, Checking checking);
-    /// Adds the light to those that are data, or returns false if it cannot describe itself as such.
-    bool add_as_data(const RenderLight& source);
     void find_tangents(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count);
     /// Writes to `reflected_` what the reflection model reflects of all lights that are data. Returns false
-    /// if there are no such lights or the model cannot evaluate them.
+    /// if there are no such lights or the model does not evaluate them at once.
     bool reflect_all_lights(const SurfaceModels& surface, const SurfacePoints& points);
     void find_n_dot_l(const SurfacePoints& points, const Vec3Span& values);
     void check_steps(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);

@@ -33,7 +33,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
     add_up(surface, interior, points, lights_, Checking::none);
     PointNeeds needs = surface.needs();
     needs.triangle &= surface.shading->shading_rate() != ShadingRate::vertex;
-    const bool needs_tangent = surface.reflection->needs_tangent();
+    const bool needs_tangent = surface.reflection_needs.tangent;
     PointTrace trace{.position = first_of(points.position),
                      .normal = first_of(normal_),
                      .to_observer = first_of(to_observer_),
@@ -57,7 +57,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
         trace.corner_position[k] = first_of(points.corner_position[k]);
         trace.corner_normal[k] = first_of(points.corner_normal[k]);
     }
-    const std::size_t count = surface.reflection->shows_environment() ? points.count : points.filled;
+    const std::size_t count = surface.environment_reflection != nullptr ? points.count : points.filled;
     const ReceiverBatch receivers{
         .count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()};
     const SurfaceBatch batch = lit_surface(surface, points, count);
@@ -91,7 +91,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
                  .diffuse = first_of(light_diffuse_),
                  .specular = first_of(light_specular_)});
         }
-        if (source.light->has_ambient()) {
+        if (source.has_ambient) {
             clear();
             guarded(PluginKind::light, source.plugin,
                     [&] { source.light->illuminate_ambient(receivers, light_diffuse_.span()); });
@@ -100,10 +100,10 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
             add({.light = i, .diffuse = first_of(light_diffuse_)});
         }
     }
-    if (surface.reflection->shows_environment()) {
+    if (surface.environment_reflection != nullptr) {
         clear();
         guarded(PluginKind::reflection, surface.reflection_plugin,
-                [&] { surface.reflection->show_environment(batch, *surroundings_, reflected); });
+                [&] { surface.environment_reflection->show_environment(batch, *surroundings_, reflected); });
         trace.surroundings = first_of(specular_);
     }
     return trace;

@@ -80,7 +80,7 @@ TEST_CASE(
                                                        {"attenuation", std::string("offset-linear")},
                                                        {"attenuation_offset", 0.25}});
     REQUIRE(light->sample_count() == 6);
-    CHECK_FALSE(light->has_ambient());
+    CHECK_FALSE(test_registry().descriptor(candela::PluginKind::light, "distributed").has_ambient);
     // Column by column along edge_u, then the next row along edge_v.
     int index = 0;
     for (const double v : {-0.25, 0.25}) {

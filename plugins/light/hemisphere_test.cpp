@@ -47,7 +47,7 @@ TEST_CASE("light/hemisphere blends ground and sky by 1/2 + N.up / 2, and comes f
                                                       {"intensity", 2.5},
                                                       {"up", Vec3{0, 3, 4}}});
     CHECK(light->sample_count() == 0);
-    CHECK(light->has_ambient());
+    CHECK(test_registry().descriptor(candela::PluginKind::light, "hemisphere").has_ambient);
     const Double3 sky{0.5, 1, 2.5}, ground{1, 0.5, 0};
     each_way([&](std::size_t size) {
         Random random(static_cast<unsigned>(size));

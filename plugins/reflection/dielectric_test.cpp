@@ -86,13 +86,15 @@ Vec3 seen_at(const ReflectionModel& model, double angle, candela::Environment& a
     float observer[] = {static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
     float sum[9] = {};
     const auto span = [](float* v) { return candela::Vec3Span{v, v + 1, v + 2}; };
-    model.show_environment({.count = 1,
-                            .normal = span(normal),
-                            .to_observer = span(observer),
-                            .tangent = {},
-                            .color = color,
-                            .position = span(position)},
-                           around, {span(sum), span(sum + 3), span(sum + 6)});
+    const auto* const transparent = candela::extension_of<candela::EnvironmentReflection>(model);
+    REQUIRE(transparent != nullptr);
+    transparent->show_environment({.count = 1,
+                                   .normal = span(normal),
+                                   .to_observer = span(observer),
+                                   .tangent = {},
+                                   .color = color,
+                                   .position = span(position)},
+                                  around, {span(sum), span(sum + 3), span(sum + 6)});
     CHECK((sum[0] == 0 && sum[1] == 0 && sum[2] == 0 && sum[3] == 0 && sum[4] == 0 && sum[5] == 0));
     return {sum[6], sum[7], sum[8]};
 }

@@ -136,7 +136,7 @@ std::vector<float> rendered(const fs::path& file, const char* shading) {
 TEST_CASE("shading/derivative is the normalised dp/du x dp/dv, on the side of the vertex normal") {
     const auto model = instance<ShadingModel>("derivative");
     CHECK(model->shading_rate() == candela::ShadingRate::fragment);
-    CHECK(model->needs().derivatives);
+    CHECK(test_registry().descriptor(candela::PluginKind::shading, "derivative").shading_needs.derivatives);
     each_way([&](std::size_t size) {
         Random random(static_cast<unsigned>(size));
         std::vector<Derivatives> points;

@@ -86,26 +86,19 @@ class ColorfulEnvironment final : public candela::Environment {
     }
 };
 
-bool can_reflect_punctual(const candela::ReflectionModel& model, candela::SurfaceBatch point) {
-    if (model.shows_environment()) return false;
-    point.to_observer = {};
-    Vec3 intensity;
-    return model.reflect_all_lights(point, punctual_lighting(), {&intensity.x, &intensity.y, &intensity.z});
-}
-
 /// Without `color`, each point has its own.
 BatchSubject reflection_subject(const Values& values, std::optional<candela::Rgb> color = std::nullopt) {
     const std::shared_ptr<candela::ReflectionModel> model = make<candela::ReflectionModel>(values);
-    const auto surface = [model, color](std::size_t count, const Arrays& in) {
+    const candela::SurfaceNeeds& needs = ::subject().surface_needs;
+    const auto surface = [needs, color](std::size_t count, const Arrays& in) {
         return candela::SurfaceBatch{
             .count = count,
             .normal = in.vec3(k_normal),
             .to_observer = in.vec3(k_observer),
-            .tangent = model->needs_tangent() ? in.vec3(k_tangent) : candela::ConstVec3Span{},
+            .tangent = needs.tangent ? in.vec3(k_tangent) : candela::ConstVec3Span{},
             .color = color.value_or(candela::Rgb{0.8f, 0.5f, 0.2f}),
             .position = in.vec3(k_position),
-            .uv =
-                model->needs_uv() ? candela::ConstVec2Span{in[k_uv], in[k_uv + 1]} : candela::ConstVec2Span{},
+            .uv = needs.uv ? candela::ConstVec2Span{in[k_uv], in[k_uv + 1]} : candela::ConstVec2Span{},
             .point_color = color ? candela::ConstVec3Span{} : in.vec3(k_color)};
     };
     const auto reflected = [](Arrays& out) {
@@ -127,7 +120,12 @@ BatchSubject reflection_subject(const Values& values, std::optional<candela::Rgb
          {"reflect_ambient", outputs, true, false, [=](std::size_t count, const Arrays& in, Arrays& out) {
               model->reflect_ambient(surface(count, in), in.vec3(k_diffuse), reflected(out));
           }}}};
-    if (can_reflect_punctual(*model, surface(1, inputs_for(1)))) {
+    // They keep the model, too.
+    const std::shared_ptr<const candela::AllLightsReflection> all_lights(
+        model, candela::extension_of<candela::AllLightsReflection>(*model));
+    const std::shared_ptr<const candela::EnvironmentReflection> environment_reflection(
+        model, candela::extension_of<candela::EnvironmentReflection>(*model));
+    if (all_lights != nullptr && environment_reflection == nullptr) {
         subject.calls.push_back({"reflect_all_lights",
                                  {"intensity"},
                                  false,
@@ -135,14 +133,14 @@ BatchSubject reflection_subject(const Values& values, std::optional<candela::Rgb
                                  [=](std::size_t count, const Arrays& in, Arrays& out) {
                                      candela::SurfaceBatch points = surface(count, in);
                                      points.to_observer = {};
-                                     model->reflect_all_lights(points, punctual_lighting(), out.vec3(0));
+                                     all_lights->reflect_all_lights(points, punctual_lighting(), out.vec3(0));
                                  }});
     }
-    if (model->shows_environment()) {
+    if (environment_reflection != nullptr) {
         subject.calls.push_back(
             {"show_environment", outputs, true, false, [=](std::size_t count, const Arrays& in, Arrays& out) {
                  ColorfulEnvironment environment;
-                 model->show_environment(surface(count, in), environment, reflected(out));
+                 environment_reflection->show_environment(surface(count, in), environment, reflected(out));
              }});
     }
     return subject;
@@ -166,7 +164,7 @@ BatchSubject light_subject(const Values& values) {
                      {.to_light = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
              }});
     }
-    if (light->has_ambient()) {
+    if (::subject().has_ambient) {
         subject.calls.push_back(
             {"illuminate_ambient",
              {"ambient"},
@@ -186,7 +184,7 @@ BatchSubject shading_subject(const Values& values) {
     return {model,
             k_inputs,
             {{"normals", {"normal"}, false, true, [=](std::size_t count, const Arrays& in, Arrays& out) {
-                  const candela::ShadingNeeds needs = model->needs();
+                  const candela::ShadingNeeds& needs = ::subject().shading_needs;
                   const auto given = [](bool is_needed, const candela::ConstVec3Span& span) {
                       return is_needed ? span : candela::ConstVec3Span{};
                   };

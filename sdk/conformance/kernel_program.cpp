@@ -64,7 +64,7 @@ std::string body_of(PluginKind kind) {
                    function("reflect_ambient", surface, "const auto r = call_reflect_ambient(m, s, 0);",
                             put(0, "r * " + three("in", in::k_diffuse)));
         case PluginKind::light:
-            if (make<candela::Light>(default_values())->has_ambient()) {
+            if (subject().has_ambient) {
                 return function("illuminate_ambient", receiver,
                                 "const auto r = call_illuminate_ambient(m, s, sample);", put(0, "r"));
             }
@@ -75,7 +75,7 @@ std::string body_of(PluginKind kind) {
                 "ShadingPoint s{{{}, {}, {}, vec2(in[{}][i], in[{}][i]), {}, {}}};\n",
                 three("in", in::k_normal), three("in", in::k_vertex_normal), three("in", in::k_barycentric),
                 in::k_uv, in::k_uv + 1, three("in", in::k_dpdu), three("in", in::k_dpdv));
-            if (!make<candela::ShadingModel>(default_values())->needs().triangle)
+            if (!subject().shading_needs.triangle)
                 return function("normals", point, "const auto r = call_normal(m, s, 0);", put(0, "r"));
             std::string corners;
             for (const std::size_t first : {in::k_corner_positions, in::k_corner_normals}) {

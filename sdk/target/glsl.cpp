@@ -168,9 +168,9 @@ std::string constants_name(const ExportedModel& model, const std::string& name) 
 }
 
 std::string needs_text(const ExportedReflection& model) {
-    return std::string(model.needs_tangent ? "#define NEEDS_TANGENT\n" : "") +
-           (model.needs_position ? "#define NEEDS_POSITION\n" : "") +
-           (model.needs_uv ? "#define NEEDS_UV\n" : "");
+    return std::string(model.needs.tangent ? "#define NEEDS_TANGENT\n" : "") +
+           (model.needs.position ? "#define NEEDS_POSITION\n" : "") +
+           (model.needs.uv ? "#define NEEDS_UV\n" : "");
 }
 
 std::string reflection_text(const ExportedReflection& model) {

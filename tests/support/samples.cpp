@@ -70,8 +70,7 @@ std::vector<ReflectedPair> reflect(const candela::ReflectionModel& model,
         tangent.span().set(i, {static_cast<float>(t.x), static_cast<float>(t.y), static_cast<float>(t.z)});
     }
     model.reflect(
-        {samples.size(), normal.span(), to_observer.span(),
-         model.needs_tangent() ? candela::ConstVec3Span(tangent.span()) : candela::ConstVec3Span{}, color},
+        {samples.size(), normal.span(), to_observer.span(), candela::ConstVec3Span(tangent.span()), color},
         {to_light.span(), light_diffuse.span(), light_specular.span()},
         {ambient.span(), diffuse.span(), specular.span()});
     std::vector<ReflectedPair> result;

@@ -191,8 +191,34 @@ TEST_CASE("a manifest that disagrees with its library is refused, naming the par
     candela::Manifest manifest = test_registry().require(PluginKind::reflection, "phong").manifest;
     manifest.parameters[3].default_value = 33.0;
     manifest.title = "Fong";
+    manifest.surface_needs.uv = true;
     write_file(directory / "reflection-phong.json", candela::to_json(manifest));
-    CHECK(holds(refusal(directory, "phong"), "its manifest disagrees with it about its title, parameters"));
+    CHECK(holds(refusal(directory, "phong"),
+                "its manifest disagrees with it about its title, parameters, needs"));
+}
+
+TEST_CASE("what a model reads is in its manifest, and what it offers is its class") {
+    const auto manifest = [](PluginKind kind, std::string_view name) -> const candela::Manifest& {
+        return test_registry().require(kind, name).manifest;
+    };
+    CHECK(manifest(PluginKind::light, "hemisphere").has_ambient);
+    CHECK_FALSE(manifest(PluginKind::light, "point").has_ambient);
+    CHECK((manifest(PluginKind::reflection, "phong").surface_needs == candela::SurfaceNeeds{}));
+    CHECK((manifest(PluginKind::reflection, "ward").surface_needs == candela::SurfaceNeeds{.tangent = true}));
+    CHECK(manifest(PluginKind::shading, "gouraud").shading_needs.default_vertex_normals);
+    CHECK_FALSE(manifest(PluginKind::shading, "area-weighted").shading_needs.default_vertex_normals);
+
+    const auto offers = []<class Extension, class Interface>(std::string_view name) {
+        return candela::extension_of<Extension>(*instance<Interface>(name)) != nullptr;
+    };
+    using candela::Light, candela::ReflectionModel;
+    CHECK(offers.operator()<candela::PunctualSource, Light>("point"));
+    CHECK_FALSE(offers.operator()<candela::PunctualSource, Light>("ambient"));
+    CHECK(offers.operator()<candela::UniformAmbientSource, Light>("ambient"));
+    CHECK_FALSE(offers.operator()<candela::UniformAmbientSource, Light>("hemisphere"));
+    CHECK(offers.operator()<candela::AllLightsReflection, ReflectionModel>("phong"));
+    CHECK_FALSE(offers.operator()<candela::EnvironmentReflection, ReflectionModel>("phong"));
+    CHECK(offers.operator()<candela::EnvironmentReflection, ReflectionModel>("dielectric"));
 }
 
 TEST_CASE("a plugin's manifest must be next to it, valid, and its own") {

@@ -31,11 +31,13 @@ class ModelInstance {
         const ColorEncoding encoding = encoding_named(color_management);
         const py::gil_scoped_release unlocked;
         instance_ = registry_->registry().create<Interface>(name_, values_, encoding);
+        descriptor_ = &registry_->registry().descriptor(k_kind_of<Interface>, name_);
     }
 
     const std::string& name() const noexcept { return name_; }
     py::dict values() const { return dictionary_of(values_); }
     const Interface& instance() const noexcept { return *instance_; }
+    const PluginDescriptor& descriptor() const noexcept { return *descriptor_; }
 
     /// Calls it; exceptions of a plugin become an Error with its name.
     template <class Call>
@@ -51,6 +53,7 @@ class ModelInstance {
     RegistryPointer registry_;  // outlives the objects made by its plugins
     std::string name_;
     ParamSet values_;
+    const PluginDescriptor* descriptor_ = nullptr;
     std::unique_ptr<Interface> instance_;
 };
 

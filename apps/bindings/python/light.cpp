@@ -61,7 +61,7 @@ Floats illuminate_ambient(const LightInstance& light, const Floats& points, cons
             positions.count(), threads, [&](Buffers& buffers, std::size_t first, std::size_t count) {
                 auto& [position, normal, towards, intensity, specular] = buffers;
                 intensity.clear();
-                if (light.instance().has_ambient()) {
+                if (light.descriptor().has_ambient) {
                     light.guarded([&](const Light& instance) {
                         instance.illuminate_ambient({.count = count,
                                                      .position = positions.read(first, count, position),
@@ -86,7 +86,7 @@ void add_light(py::module_& module) {
         .def_property_readonly("sample_count",
                                [](const LightInstance& light) { return light.instance().sample_count(); })
         .def_property_readonly("has_ambient",
-                               [](const LightInstance& light) { return light.instance().has_ambient(); })
+                               [](const LightInstance& light) { return light.descriptor().has_ambient; })
         .def("illuminate", &illuminate, py::arg("points"), py::arg("normals"), py::arg("sample"),
              py::arg("threads"))
         .def("ambient", &illuminate_ambient, py::arg("points"), py::arg("normals"), py::arg("threads"));

@@ -51,8 +51,9 @@ Surfaces surfaces_from(const Reflection& model, const Floats& normals, const Flo
             throw Error(ErrorCategory::bad_request,
                         fmt::format("reflection/{} reads {}, which are missing", model.name(), what));
     };
-    require(model.instance().needs_tangent(), tangents.has_value(), "tangents");
-    require(model.instance().needs_uv(), uv.has_value(), "texture coordinates (uv)");
+    const SurfaceNeeds& needs = model.descriptor().surface_needs;
+    require(needs.tangent, tangents.has_value(), "tangents");
+    require(needs.uv, uv.has_value(), "texture coordinates (uv)");
     return {.normals = Vectors(normals, "normals"),
             .to_observer = Vectors(to_observer, "to_observer"),
             .color = Vectors(color, "color"),
@@ -150,12 +151,15 @@ void add_reflection(py::module_& module) {
              py::arg("registry"), py::arg("name"), py::arg("values"), py::arg("color_management"))
         .def_property_readonly("name", &Reflection::name)
         .def_property_readonly("values", &Reflection::values)
-        .def_property_readonly("reads_tangents",
-                               [](const Reflection& model) { return model.instance().needs_tangent(); })
+        .def_property_readonly(
+            "reads_tangents",
+            [](const Reflection& model) { return model.descriptor().surface_needs.tangent; })
         .def_property_readonly("reads_uv",
-                               [](const Reflection& model) { return model.instance().needs_uv(); })
+                               [](const Reflection& model) { return model.descriptor().surface_needs.uv; })
         .def_property_readonly("shows_surroundings",
-                               [](const Reflection& model) { return model.instance().shows_environment(); })
+                               [](const Reflection& model) {
+                                   return extension_of<EnvironmentReflection>(model.instance()) != nullptr;
+                               })
         .def("evaluate", &evaluate, py::arg("normals"), py::arg("to_observer"), py::arg("to_light"),
              py::arg("color"), py::arg("light"), py::arg("tangents"), py::arg("positions"), py::arg("uv"),
              py::arg("threads"))

@@ -46,7 +46,7 @@ Floats normals_at(const Shading& model, const std::array<Floats, 3>& triangles,
                   const std::array<Floats, 3>& vertex_normals, const Floats& barycentrics,
                   const std::optional<Floats>& uv, const std::optional<Floats>& dpdu,
                   const std::optional<Floats>& dpdv, int threads) {
-    const ShadingNeeds needs = model.instance().needs();
+    const ShadingNeeds& needs = model.descriptor().shading_needs;
     if (needs.derivatives && !(dpdu && dpdv))
         throw Error(ErrorCategory::bad_request,
                     fmt::format("shading/{} reads partial derivatives (dpdu and dpdv), which are missing",

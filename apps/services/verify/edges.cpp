@@ -61,7 +61,6 @@ class TurnedLight final : public candela::Light {
         : light_(std::move(light)), way_(way) {}
 
     int sample_count() const noexcept override { return light_->sample_count(); }
-    bool has_ambient() const noexcept override { return light_->has_ambient(); }
 
     void illuminate(int sample, const candela::ReceiverBatch& receivers,
                     const candela::IncidentBatch& incident) const override {
@@ -103,6 +102,7 @@ class Mover {
             auto turned = std::make_unique<TurnedLight>(std::move(source.light), way_);
             turned_.push_back(turned.get());
             source.light = std::move(turned);
+            data_.push_back(std::exchange(source.data, std::nullopt));
         }
     }
     Mover(const Mover&) = delete;
@@ -113,6 +113,7 @@ class Mover {
         for (std::size_t i = 0; i < turned_.size(); ++i) {
             std::unique_ptr<candela::Light> own = turned_[i]->release();
             scene_.lights[i].light = std::move(own);
+            scene_.lights[i].data = std::move(data_[i]);
         }
     }
 
@@ -134,6 +135,7 @@ class Mover {
     int samples_;
     std::optional<float> way_;
     std::vector<TurnedLight*> turned_;
+    std::vector<std::optional<candela::LightData>> data_;  // of the unturned lights
 };
 
 /// The value in a picture's file, 0 to 255, before rounding.

@@ -1,4 +1,4 @@
-// The interface of light plugins.
+// The interface of light plugins. extensions.h has what a light may offer in addition.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,6 @@
 #include "candela/math.h"
 #include "candela/plugin/descriptor.h"
 #include "candela/plugin/export.h"
-#include "candela/punctual.h"
 
 namespace candela {
 
@@ -40,20 +39,9 @@ class CANDELA_EXPORT Light : public Instance {
     /// Writes what sample `sample`, 0 <= sample < sample_count(), sends. The samples of a light add up.
     virtual void illuminate(int sample, const ReceiverBatch& receivers, const IncidentBatch& incident) const;
 
-    /// Whether the light has a part that comes from everywhere (CA DD3).
-    virtual bool has_ambient() const noexcept = 0;
-
-    /// Writes the intensity of the ambient part, per channel. Never attenuated.
+    /// Writes the intensity of the part that comes from everywhere (CA DD3), per channel. Never attenuated.
+    /// By default there is none: see PluginDescriptor::has_ambient.
     virtual void illuminate_ambient(const ReceiverBatch& receivers, const Vec3Span& ambient) const;
-
-    /// Describes sample `sample` as data, if possible: the data then sends the same to each receiver as
-    /// illuminate(), up to rounding, and reflection models may evaluate it without calling the light again.
-    /// Returns false if data cannot express it.
-    virtual bool as_punctual(int sample, PunctualLight& light) const;
-
-    /// Returns what illuminate_ambient() writes, if that is the same for all receivers; otherwise returns
-    /// false.
-    virtual bool as_ambient(Rgb& ambient) const;
 };
 
 }  // namespace candela

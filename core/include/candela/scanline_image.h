@@ -1,4 +1,4 @@
-// An optional interface next to ImageFormat, for pictures that do not fit into memory.
+// An extension of ImageFormat (see extensions.h), for pictures that do not fit into memory.
 #pragma once
 
 #include <cstddef>
@@ -40,8 +40,7 @@ class CANDELA_EXPORT RandomAccessSink : public ByteSink {
     virtual void write_at(std::uint64_t offset, std::span<const std::byte> bytes) = 0;
 };
 
-/// Writes one or more formats row by row. The class that implements ImageFormat may derive from it; the host
-/// finds out with a dynamic_cast. Any thread.
+/// An ImageFormat that writes one or more formats row by row. Any thread.
 class CANDELA_EXPORT ScanlineImageFormat {
   public:
     virtual ~ScanlineImageFormat();

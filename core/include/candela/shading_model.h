@@ -32,18 +32,6 @@ struct MeshView {
                                     // a vertex without one
 };
 
-/// The members of ShadingPointBatch that a shading model reads. Others are not computed for it.
-struct ShadingNeeds {
-    bool face_normal = true;
-    bool vertex_normal = true;
-    bool barycentric = true;
-    bool uv = false;
-    bool derivatives = false;
-    bool triangle = false;  // not at rate `vertex`: a vertex belongs to several triangles
-    /// vertex_normals() is not overridden. Where a shape is faceted, vertices need no normals then.
-    bool default_vertex_normals = false;
-};
-
 /// The triangle of each point, as its vertices, counter-clockwise seen from outside. World space.
 struct TriangleBatch {
     std::array<ConstVec3Span, 3> position;  // metres
@@ -54,7 +42,7 @@ struct TriangleBatch {
 /// space.
 struct ShadingPointBatch {
     std::size_t count = 0;
-    // Each is null unless needed.
+    // Each is null unless needed: a plugin declares its ShadingNeeds in its descriptor.
     ConstVec3Span face_normal;    // unit
     ConstVec3Span vertex_normal;  // interpolated perspective-correctly between the vertices; not unit
     ConstVec3Span barycentric;    // weights of the triangle's vertices; of the first one at rate `vertex`
@@ -72,14 +60,13 @@ class CANDELA_EXPORT ShadingModel : public Instance {
     ~ShadingModel() override;
 
     virtual ShadingRate shading_rate() const noexcept = 0;
-    virtual ShadingNeeds needs() const noexcept { return {}; }
+
+    /// Writes the unit normal of each point.
+    virtual void normals(const ShadingPointBatch& points, const Vec3Span& normals) const = 0;
 
     /// Writes a unit normal for each smooth group. By default, the authored normals if the object has any,
     /// otherwise the normalised sum of the normals of the faces that share the vertex (CA DD9; Gouraud 1971).
     virtual void vertex_normals(const MeshView& mesh, const Vec3Span& normals) const;
-
-    /// Writes the unit normal of each point.
-    virtual void normals(const ShadingPointBatch& points, const Vec3Span& normals) const = 0;
 };
 
 }  // namespace candela

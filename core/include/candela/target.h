@@ -35,9 +35,7 @@ struct ExportedShading : ExportedModel {
 };
 
 struct ExportedReflection : ExportedModel {
-    bool needs_tangent = false;       // its kernel reads Surface::tangent
-    bool needs_position = false;      // its kernel reads Surface::position
-    bool needs_uv = false;            // its kernel reads Surface::uv
+    SurfaceNeeds needs{};             // what its kernel reads of Surface
     bool shows_surroundings = false;  // it shows the world behind and around an object
 };
 
@@ -45,8 +43,8 @@ struct ExportedLight {
     const char* label = "";  // as messages name it: 'lamp', in quotes, or number 2
     std::size_t model = 0;   // index into ExportedScene::light_models
     ExportedValues values{};
-    bool is_data = false;  // whether the light describes itself as data (Light::as_punctual()), in the next
-                           // two members
+    bool is_data = false;  // whether the light describes itself as data (see extensions.h), in the next two
+                           // members
     std::span<const PunctualLight> punctual{};  // one per sample
     Rgb ambient{};                              // the part that comes from everywhere
 };

@@ -309,14 +309,15 @@ class CppWriter {
 
     /// Fills the members of a surface's point that only some models read.
     std::string tangent() const {
-        const auto line = [&](bool ExportedReflection::* needs, const char* text) {
-            return std::ranges::any_of(scene_.reflections, needs) ? text : "";
+        const auto line = [&](bool SurfaceNeeds::* needs, const char* text) {
+            const auto reads = [&](const ExportedReflection& model) { return model.needs.*needs; };
+            return std::ranges::any_of(scene_.reflections, reads) ? text : "";
         };
-        return std::string(line(&ExportedReflection::needs_tangent,
+        return std::string(line(&SurfaceNeeds::tangent,
                                 "    s.tangent = normalize(point.dpdu - s.normal * dot(s.normal, "
                                 "point.dpdu));\n")) +
-               line(&ExportedReflection::needs_position, "    s.position = place;\n") +
-               line(&ExportedReflection::needs_uv, "    s.uv = point.uv;\n");
+               line(&SurfaceNeeds::position, "    s.position = place;\n") +
+               line(&SurfaceNeeds::uv, "    s.uv = point.uv;\n");
     }
 
     const ExportedScene& scene_;

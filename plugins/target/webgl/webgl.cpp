@@ -267,8 +267,8 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
     for (std::size_t i = 0; i < scene.reflections.size(); ++i) {
         Json& json = reflections[scene.reflections[i].plugin->name] =
             model_json(scene.reflections[i], glsl.reflections[i]);
-        json["needs_tangent"] = scene.reflections[i].needs_tangent;
-        json["needs_uv"] = scene.reflections[i].needs_uv;
+        json["needs_tangent"] = scene.reflections[i].needs.tangent;
+        json["needs_uv"] = scene.reflections[i].needs.uv;
     }
     for (std::size_t i = 0; i < scene.shadings.size(); ++i) {
         Json& model = shadings[scene.shadings[i].plugin->name] =

@@ -239,7 +239,7 @@ std::string trespass_of_writing(const ImageFormat& writer, const FileFormat& for
     Memory memory;
     const FencedPicture whole(picture.view(format.pixels), fence);
     std::string trespass = trespass_of([&] { writer.write(whole.view(), format.extension, memory); });
-    const auto* const by_rows = dynamic_cast<const candela::ScanlineImageFormat*>(&writer);
+    const auto* const by_rows = candela::extension_of<candela::ScanlineImageFormat>(writer);
     if (trespass.empty() && by_rows != nullptr && by_rows->writes_rows(format.extension)) {
         FencedRows rows(picture.view(format.pixels), fence);
         candela::PictureView without_pixels = picture.view(format.pixels);

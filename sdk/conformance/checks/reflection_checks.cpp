@@ -47,18 +47,19 @@ class Reflections {
     }
 
     std::vector<Vec3> of(const Arrays& given) const {
+        const candela::SurfaceNeeds& needs = subject().surface_needs;
         const std::size_t count = given.count();
         Arrays out(9, count);
-        model_->reflect({.count = count,
-                         .normal = given.vec3(0),
-                         .to_observer = given.vec3(3),
-                         .tangent = model_->needs_tangent() ? given.vec3(6) : candela::ConstVec3Span{},
-                         .color = {1, 1, 1},
-                         .position = given.vec3(15),
-                         .uv = model_->needs_uv() ? candela::ConstVec2Span{given[15], given[16]}
-                                                  : candela::ConstVec2Span{}},
-                        {.to_light = given.vec3(9), .diffuse = given.vec3(12), .specular = given.vec3(12)},
-                        {.ambient = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
+        model_->reflect(
+            {.count = count,
+             .normal = given.vec3(0),
+             .to_observer = given.vec3(3),
+             .tangent = needs.tangent ? given.vec3(6) : candela::ConstVec3Span{},
+             .color = {1, 1, 1},
+             .position = given.vec3(15),
+             .uv = needs.uv ? candela::ConstVec2Span{given[15], given[16]} : candela::ConstVec2Span{}},
+            {.to_light = given.vec3(9), .diffuse = given.vec3(12), .specular = given.vec3(12)},
+            {.ambient = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
         std::vector<Vec3> sums;
         for (std::size_t i = 0; i < count; ++i) sums.push_back(out.at(3, i) + out.at(6, i));
         return sums;
@@ -379,18 +380,20 @@ TEST_CASE("surroundings: with one intensity from everywhere, no more than that i
     };
     for (const Values& values : many_values()) {
         const auto model = make<ReflectionModel>(values);
-        if (!model->shows_environment()) SKIP("it does not show its surroundings");
+        const auto* const shown = candela::extension_of<candela::EnvironmentReflection>(*model);
+        if (shown == nullptr) SKIP("it does not show its surroundings");
         const Arrays in = inputs_for(1000);
         Arrays out(9, in.count());
         Furnace furnace;
-        model->show_environment(
+        const candela::SurfaceNeeds& needs = subject().surface_needs;
+        shown->show_environment(
             {.count = in.count(),
              .normal = in.vec3(0),
              .to_observer = in.vec3(3),
-             .tangent = model->needs_tangent() ? in.vec3(6) : candela::ConstVec3Span{},
+             .tangent = needs.tangent ? in.vec3(6) : candela::ConstVec3Span{},
              .color = {1, 1, 1},
              .position = in.vec3(18),
-             .uv = model->needs_uv() ? candela::ConstVec2Span{in[33], in[34]} : candela::ConstVec2Span{}},
+             .uv = needs.uv ? candela::ConstVec2Span{in[33], in[34]} : candela::ConstVec2Span{}},
             furnace, {.ambient = out.vec3(0), .diffuse = out.vec3(3), .specular = out.vec3(6)});
         for (std::size_t i = 0; i < in.count(); ++i) {
             const float seen = largest(out.at(6, i));

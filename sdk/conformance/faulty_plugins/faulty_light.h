@@ -21,7 +21,6 @@ class Lamp : public candela::Light {
     explicit Lamp(const LampParams& params)
         : position_{params.position.x, params.position.y, params.position.z} {}
     int sample_count() const noexcept override { return 1; }
-    bool has_ambient() const noexcept override { return false; }
     void illuminate(int, const candela::ReceiverBatch& receivers,
                     const candela::IncidentBatch& incident) const override {
         for (std::size_t i = 0; i < receivers.count; ++i) {

@@ -23,6 +23,7 @@
 // description against the other functions.
 #pragma once
 
+#include "candela/extensions.h"
 #include "candela/kernel/simd_dispatch.h"
 #include "candela/light.h"
 #include "candela/plugin.h"
@@ -91,81 +92,84 @@ struct IlluminateAmbientLoop {
 };
 
 template <class Params>
-bool described(const Params& params, int sample, PunctualLight& light) {
-    if constexpr (requires { punctual(params, sample); }) {
-        light = punctual(params, sample);
-        return true;
-    } else {
-        return false;
+class LightParams {
+  public:
+    explicit LightParams(const Params& params) : params_(params) {}
+
+  protected:
+    Params params_;
+};
+
+/// The parameters of a light with samples, which are data if there is a function `punctual`.
+template <class Params>
+class SampledLightParams : public LightParams<Params> {
+  public:
+    using LightParams<Params>::LightParams;
+};
+template <class Params>
+    requires requires(const Params& params) { punctual(params, 0); }
+class SampledLightParams<Params> : public LightParams<Params>, public PunctualSource {
+  public:
+    using LightParams<Params>::LightParams;
+    PunctualLight as_punctual(int sample) const override { return punctual(this->params_, sample); }
+};
+
+/// The parameters of an ambient light, which is data if there is a function `uniform_ambient`.
+template <class Params>
+class AmbientLightParams : public LightParams<Params> {
+  public:
+    using LightParams<Params>::LightParams;
+};
+template <class Params>
+    requires requires(const Params& params) { uniform_ambient(params); }
+class AmbientLightParams<Params> : public LightParams<Params>, public UniformAmbientSource {
+  public:
+    using LightParams<Params>::LightParams;
+    Rgb as_ambient() const override {
+        const vec3 same = uniform_ambient(this->params_);
+        return {same.x, same.y, same.z};
     }
-}
+};
 
 template <class Params, auto illuminate_>
-class KernelLight : public Light {
+class KernelLight : public Light, public SampledLightParams<Params> {
   public:
     static constexpr KernelFunction k_kernel_functions[] = {
         kernel_function<Params, illuminate_>("illuminate")};
 
-    explicit KernelLight(const Params& params) : params_(params) {}
+    explicit KernelLight(const Params& params) : SampledLightParams<Params>(params) {}
     int sample_count() const noexcept override { return 1; }
-    bool has_ambient() const noexcept override { return false; }
     void illuminate(int, const ReceiverBatch& receivers, const IncidentBatch& incident) const override {
-        multiversion<IlluminateLoop<Params, illuminate_>>(params_, receivers, incident);
+        multiversion<IlluminateLoop<Params, illuminate_>>(this->params_, receivers, incident);
     }
-    bool as_punctual(int sample, PunctualLight& light) const override {
-        return described(params_, sample, light);
-    }
-
-  private:
-    Params params_;
 };
 
 template <class Params, auto illuminate_, auto sample_count_>
-class KernelSampledLight : public Light {
+class KernelSampledLight : public Light, public SampledLightParams<Params> {
   public:
     static constexpr KernelFunction k_kernel_functions[] = {
         kernel_function<Params, illuminate_>("illuminate"),
         kernel_function<Params, sample_count_>("sample_count")};
 
-    explicit KernelSampledLight(const Params& params) : params_(params) {}
-    int sample_count() const noexcept override { return call<sample_count_>(params_); }
-    bool has_ambient() const noexcept override { return false; }
+    explicit KernelSampledLight(const Params& params) : SampledLightParams<Params>(params) {}
+    int sample_count() const noexcept override { return call<sample_count_>(this->params_); }
     void illuminate(int sample, const ReceiverBatch& receivers,
                     const IncidentBatch& incident) const override {
-        multiversion<IlluminateLoop<Params, illuminate_>>(params_, receivers, incident, sample);
+        multiversion<IlluminateLoop<Params, illuminate_>>(this->params_, receivers, incident, sample);
     }
-    bool as_punctual(int sample, PunctualLight& light) const override {
-        return described(params_, sample, light);
-    }
-
-  private:
-    Params params_;
 };
 
 template <class Params, auto illuminate_ambient_>
-class KernelAmbientLight : public Light {
+class KernelAmbientLight : public Light, public AmbientLightParams<Params> {
   public:
     static constexpr KernelFunction k_kernel_functions[] = {
         kernel_function<Params, illuminate_ambient_>("illuminate_ambient")};
 
-    explicit KernelAmbientLight(const Params& params) : params_(params) {}
+    explicit KernelAmbientLight(const Params& params) : AmbientLightParams<Params>(params) {}
     int sample_count() const noexcept override { return 0; }
-    bool has_ambient() const noexcept override { return true; }
     void illuminate_ambient(const ReceiverBatch& receivers, const Vec3Span& ambient) const override {
-        multiversion<IlluminateAmbientLoop<Params, illuminate_ambient_>>(params_, receivers, ambient);
+        multiversion<IlluminateAmbientLoop<Params, illuminate_ambient_>>(this->params_, receivers, ambient);
     }
-    bool as_ambient(Rgb& ambient) const override {
-        if constexpr (requires { uniform_ambient(params_); }) {
-            const vec3 same = uniform_ambient(params_);
-            ambient = {same.x, same.y, same.z};
-            return true;
-        } else {
-            return false;
-        }
-    }
-
-  private:
-    Params params_;
 };
 
 }  // namespace candela::sdk

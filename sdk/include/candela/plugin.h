@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -21,10 +22,12 @@
 #include "candela/color.h"
 #include "candela/kernel/batch.h"
 #include "candela/kernel/kernel.h"
+#include "candela/light.h"
 #include "candela/math.h"
 #include "candela/plugin/abi.h"
 #include "candela/plugin/descriptor.h"
 #include "candela/plugin/export.h"
+#include "candela/shading_model.h"
 
 namespace candela::sdk {
 
@@ -374,6 +377,38 @@ KernelText kernel_text(const char* prefix, const char* parameters,
             .members = members};
 }
 
+/// The needs of the instances of `Model`: its public static member `k_needs`, if that is a `Needs`; otherwise
+/// the default.
+template <class Needs, class Model>
+constexpr Needs needs_of() {
+    if constexpr (requires { requires std::same_as<decltype(Model::k_needs), const Needs>; }) {
+        return Model::k_needs;
+    } else {
+        return {};
+    }
+}
+
+/// Whether `Model` is a light with an ambient part.
+template <class Model>
+constexpr bool has_ambient() {
+    // A function that is not overridden is a member of the interface; one that cannot be named here is
+    // overridden by a private function.
+    constexpr bool is_default = requires {
+        requires std::same_as<decltype(&Model::illuminate_ambient), decltype(&Light::illuminate_ambient)>;
+    };
+    return std::is_base_of_v<Light, Model> && !is_default;
+}
+
+/// Like needs_of(), for a shading model: whether it has its own vertex normals need not be declared.
+template <class Model>
+constexpr ShadingNeeds shading_needs() {
+    ShadingNeeds needs = needs_of<ShadingNeeds, Model>();
+    needs.default_vertex_normals = requires {
+        requires std::same_as<decltype(&Model::vertex_normals), decltype(&ShadingModel::vertex_normals)>;
+    };
+    return needs;
+}
+
 template <std::size_t count, class Params>
 constexpr std::array<ParamSpec, count> specs_of(const std::array<Field<Params>, count>& fields) {
     std::array<ParamSpec, count> specs{};
@@ -447,30 +482,33 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
             Params_, prefix_##_preparation::is_there<Params_>>(#prefix_, #Params_, fields_)),                \
         __VA_ARGS__)
 
-#define CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, prepare_, kernel_, ...)                  \
-    extern "C" CANDELA_EXPORT const char* candela_plugin_abi() { return CANDELA_ABI; }        \
-    extern "C" CANDELA_EXPORT const candela::PluginDescriptor* candela_plugin_descriptor() {  \
-        static constexpr auto specs = candela::sdk::specs_of(fields_);                        \
-        static const candela::sdk::About about = __VA_ARGS__;                                 \
-        static const candela::PluginDescriptor descriptor{                                    \
-            .kind = candela::PluginKind::kind_,                                               \
-            .name = CANDELA_PLUGIN_NAME,                                                      \
-            .version = CANDELA_PLUGIN_VERSION,                                                \
-            .title = about.title,                                                             \
-            .summary = about.summary,                                                         \
-            .formula = about.formula,                                                         \
-            .reference = about.reference,                                                     \
-            .parameters = specs,                                                              \
-            .relations = about.relations,                                                     \
-            .properties = about.properties,                                                   \
-            .presets = about.presets,                                                         \
-            .formats = about.formats,                                                         \
-            .kernel = kernel_,                                                                \
-            .create = [](std::span<const candela::ParamValue> values) -> candela::Instance* { \
-                using Made = std::remove_pointer_t<decltype(new Model(                        \
-                    prepare_(candela::sdk::params_from(fields_, values))))>;                  \
-                return candela::sdk::created<Made, candela::sdk::have_tables(fields_)>(       \
-                    fields_, values, [](const auto& params) { return prepare_(params); });    \
-            }};                                                                               \
-        return &descriptor;                                                                   \
+#define CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, prepare_, kernel_, ...)                              \
+    extern "C" CANDELA_EXPORT const char* candela_plugin_abi() { return CANDELA_ABI; }                    \
+    extern "C" CANDELA_EXPORT const candela::PluginDescriptor* candela_plugin_descriptor() {              \
+        static constexpr auto specs = candela::sdk::specs_of(fields_);                                    \
+        static const candela::sdk::About about = __VA_ARGS__;                                             \
+        using Made =                                                                                      \
+            std::remove_pointer_t<decltype(new Model(prepare_(candela::sdk::params_from(fields_, {}))))>; \
+        static const candela::PluginDescriptor descriptor{                                                \
+            .kind = candela::PluginKind::kind_,                                                           \
+            .name = CANDELA_PLUGIN_NAME,                                                                  \
+            .version = CANDELA_PLUGIN_VERSION,                                                            \
+            .title = about.title,                                                                         \
+            .summary = about.summary,                                                                     \
+            .formula = about.formula,                                                                     \
+            .reference = about.reference,                                                                 \
+            .parameters = specs,                                                                          \
+            .relations = about.relations,                                                                 \
+            .properties = about.properties,                                                               \
+            .presets = about.presets,                                                                     \
+            .formats = about.formats,                                                                     \
+            .has_ambient = candela::sdk::has_ambient<Made>(),                                             \
+            .surface_needs = candela::sdk::needs_of<candela::SurfaceNeeds, Made>(),                       \
+            .shading_needs = candela::sdk::shading_needs<Made>(),                                         \
+            .kernel = kernel_,                                                                            \
+            .create = [](std::span<const candela::ParamValue> values) -> candela::Instance* {             \
+                return candela::sdk::created<Made, candela::sdk::have_tables(fields_)>(                   \
+                    fields_, values, [](const auto& params) { return prepare_(params); });                \
+            }};                                                                                           \
+        return &descriptor;                                                                               \
     }

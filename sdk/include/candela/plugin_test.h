@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "candela/extensions.h"
 #include "candela/image_format.h"
 #include "candela/light.h"
 #include "candela/plugin/instances.h"

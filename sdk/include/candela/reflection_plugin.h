@@ -7,8 +7,10 @@
 // is a KernelReflection; so is a model whose parameters need C++, which ends with CANDELA_KERNEL_PLUGIN.
 #pragma once
 
+#include "candela/extensions.h"
 #include "candela/kernel/simd_dispatch.h"
 #include "candela/plugin.h"
+#include "candela/punctual.h"
 #include "candela/reflection_model.h"
 
 namespace candela::sdk {
@@ -239,17 +241,16 @@ struct ReflectPunctualLoop {
 };
 
 template <class Material, auto reflect_, auto reflect_ambient_, SurfaceReads reads = reads_no_more>
-class KernelReflection : public ReflectionModel {
+class KernelReflection : public ReflectionModel, public AllLightsReflection {
   public:
+    static constexpr SurfaceNeeds k_needs{.tangent = (reads & reads_tangent) != 0,
+                                          .uv = (reads & reads_uv) != 0,
+                                          .position = (reads & reads_position) != 0};
     static constexpr KernelFunction k_kernel_functions[] = {
         kernel_function<Material, reflect_>("reflect"),
         kernel_function<Material, reflect_ambient_>("reflect_ambient")};
 
     explicit KernelReflection(const Material& material) : material_(material) {}
-
-    bool needs_tangent() const noexcept override { return (reads & reads_tangent) != 0; }
-    bool needs_uv() const noexcept override { return (reads & reads_uv) != 0; }
-    bool needs_position() const noexcept override { return (reads & reads_position) != 0; }
 
     void reflect(const SurfaceBatch& surface, const LightingBatch& light,
                  const ReflectedBatch& reflected) const override {
@@ -266,7 +267,7 @@ class KernelReflection : public ReflectionModel {
                                                                             reflected);
     }
 
-    bool reflect_all_lights(const SurfaceBatch& surface, const PunctualLighting& lighting,
+    void reflect_all_lights(const SurfaceBatch& surface, const PunctualLighting& lighting,
                             const Vec3Span& intensity) const override {
         const SurfacePasses passes(surface);
         const SurfacePasses* const all = &passes;
@@ -276,7 +277,6 @@ class KernelReflection : public ReflectionModel {
             material_, all, lighting, intensity, to_rest);
         for (std::size_t i = passes.whole(); i < surface.count; ++i)
             store(intensity, i, load(rest, i - passes.whole()));
-        return true;
     }
 
   private:

@@ -13,6 +13,7 @@
 // The material has a member `int internal_reflections`.
 #pragma once
 
+#include "candela/extensions.h"
 #include "candela/reflection_plugin.h"
 
 #include <cstdint>
@@ -132,8 +133,11 @@ struct AddSeenLoop {
 
 template <class Material, auto reflect_, auto reflect_ambient_, auto enter_, auto leave_, auto transmit_,
           SurfaceReads reads = reads_no_more>
-class KernelRefraction : public ReflectionModel {
+class KernelRefraction : public ReflectionModel, public EnvironmentReflection {
+    using Surface = KernelReflection<Material, reflect_, reflect_ambient_, reads>;
+
   public:
+    static constexpr SurfaceNeeds k_needs = Surface::k_needs;
     static constexpr KernelFunction k_kernel_functions[] = {
         kernel_function<Material, reflect_>("reflect"),
         kernel_function<Material, reflect_ambient_>("reflect_ambient"),
@@ -141,11 +145,6 @@ class KernelRefraction : public ReflectionModel {
         kernel_function<Material, transmit_>("transmit")};
 
     explicit KernelRefraction(const Material& material) : surface_(material), material_(material) {}
-
-    bool needs_tangent() const noexcept override { return surface_.needs_tangent(); }
-    bool needs_uv() const noexcept override { return surface_.needs_uv(); }
-    bool needs_position() const noexcept override { return surface_.needs_position(); }
-    bool shows_environment() const noexcept override { return true; }
 
     void reflect(const SurfaceBatch& surface, const LightingBatch& light,
                  const ReflectedBatch& reflected) const override {
@@ -186,7 +185,7 @@ class KernelRefraction : public ReflectionModel {
         multiversion<AddSeenLoop>(&rays);
     }
 
-    KernelReflection<Material, reflect_, reflect_ambient_, reads> surface_;
+    Surface surface_;
     Material material_;
 };
 

@@ -76,7 +76,6 @@ struct NormalLoop {
     }
 };
 
-/// A class derived from this one that overrides vertex_normals() overrides needs() as well.
 template <class Params, ShadingRate rate, auto normal, ShadingNeeds needs_ = ShadingNeeds{}>
 class KernelShading : public ShadingModel {
     static constexpr bool k_takes_triangle = takes_triangle<Params, normal>;
@@ -84,19 +83,17 @@ class KernelShading : public ShadingModel {
                   "a model that is lit per vertex has no Triangle: a vertex belongs to several");
     static_assert(k_takes_triangle || !needs_.triangle,
                   "a model that needs its triangle takes a Triangle after the ShadingPoint");
+
+  public:
     static constexpr ShadingNeeds k_needs = [] {
         ShadingNeeds needs = needs_;
         needs.triangle = k_takes_triangle;
-        needs.default_vertex_normals = true;
         return needs;
     }();
-
-  public:
     static constexpr KernelFunction k_kernel_functions[] = {kernel_function<Params, normal>("normal")};
 
     explicit KernelShading(const Params& params) : params_(params) {}
     ShadingRate shading_rate() const noexcept override { return rate; }
-    ShadingNeeds needs() const noexcept override { return k_needs; }
     void normals(const ShadingPointBatch& points, const Vec3Span& normals) const override {
         multiversion<NormalLoop<Params, normal, k_needs>>(params_, points, normals);
     }
@@ -201,11 +198,6 @@ class WeightedShading : public KernelShading<Params, rate, normal, needs_> {
                                                             kernel_function<Params, weight>("corner_weight")};
 
     using Base::Base;
-    ShadingNeeds needs() const noexcept override {
-        ShadingNeeds needs = Base::needs();
-        needs.default_vertex_normals = false;
-        return needs;
-    }
     void vertex_normals(const MeshView& mesh, const Vec3Span& normals) const override {
         ShadingModel::vertex_normals(mesh, normals);
         if (!mesh.authored_normal) WeightedNormals<Params, weight>(this->params(), mesh).write(normals);

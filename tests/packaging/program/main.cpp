@@ -14,7 +14,10 @@ int main(int argc, char** argv) {
         candela::Registry registry({argv[1]});
         const std::unique_ptr<candela::ReflectionModel> model = registry.create<candela::ReflectionModel>(
             "cel", registry.parameters(candela::PluginKind::reflection, "cel"), candela::ColorEncoding::none);
-        std::puts(model->needs_tangent() ? "it needs tangents" : "it needs no tangents");
+        if (candela::extension_of<candela::AllLightsReflection>(*model) == nullptr) return 1;
+        const candela::SurfaceNeeds needs =
+            registry.descriptor(candela::PluginKind::reflection, "cel").surface_needs;
+        std::puts(needs.tangent ? "it needs tangents" : "it needs no tangents");
         return 0;
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "%s\n", problem.what());

@@ -9,6 +9,7 @@
 
 #include "candela/color.h"
 #include "candela/plugin/export.h"
+#include "candela/plugin/needs.h"
 #include "candela/plugin/params.h"
 
 namespace candela {
@@ -82,6 +83,9 @@ struct PluginDescriptor {
     std::span<const Property> properties{};
     std::span<const PresetSpec> presets{};
     std::span<const FileFormat> formats{};  // image plugins only
+    bool has_ambient = false;      // lights only: Light::illuminate_ambient() is overridden, and writes
+    SurfaceNeeds surface_needs{};  // reflection models only
+    ShadingNeeds shading_needs{};  // shading models only
     KernelText kernel{};
 
     /// Creates an instance of the kind's interface class. `values` are in the order of `parameters`. May

@@ -2,13 +2,12 @@
 #include "faulty_light.h"
 
 namespace {
-class DescribesAnother final : public faulty::Lamp {
+class DescribesAnother final : public faulty::Lamp, public candela::PunctualSource {
   public:
     explicit DescribesAnother(const faulty::LampParams& params) : Lamp(params), lamp_(params) {}
-    bool as_punctual(int, candela::PunctualLight& light) const override {
-        light = candela::sdk::punctual_light(
+    candela::PunctualLight as_punctual(int) const override {
+        return candela::sdk::punctual_light(
             candela::kernel::punctual_source(lamp_.position, candela::sdk::vec3(1.0f), 1, 2, 0));
-        return true;
     }
 
   private:

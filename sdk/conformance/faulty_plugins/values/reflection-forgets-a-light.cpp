@@ -18,11 +18,11 @@ using Sound =
 class ForgetsALight final : public Sound {
   public:
     explicit ForgetsALight(const faulty::Params& params) : Sound({params.kd}) {}
-    bool reflect_all_lights(const candela::SurfaceBatch& surface, const candela::PunctualLighting& lighting,
+    void reflect_all_lights(const candela::SurfaceBatch& surface, const candela::PunctualLighting& lighting,
                             const candela::Vec3Span& intensity) const override {
         candela::PunctualLighting most = lighting;
         if (!most.lights.empty()) most.lights = most.lights.first(most.lights.size() - 1);
-        return Sound::reflect_all_lights(surface, most, intensity);
+        Sound::reflect_all_lights(surface, most, intensity);
     }
 };
 }  // namespace

@@ -5,7 +5,7 @@ namespace {
 class LiesAboutIsotropy final : public faulty::Matt {
   public:
     using Matt::Matt;
-    bool needs_tangent() const noexcept override { return true; }
+    static constexpr candela::SurfaceNeeds k_needs{.tangent = true};
 
   private:
     float factor(const candela::SurfaceBatch& s, const candela::LightingBatch& light,

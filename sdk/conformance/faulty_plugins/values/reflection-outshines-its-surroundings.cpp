@@ -4,9 +4,8 @@
 #include "faulty_reflection.h"
 
 namespace {
-class OutshinesItsSurroundings final : public faulty::Matt {
+class OutshinesItsSurroundings final : public faulty::Matt, public candela::EnvironmentReflection {
     using Matt::Matt;
-    bool shows_environment() const noexcept override { return true; }
     void show_environment(const candela::SurfaceBatch& s, candela::Environment& environment,
                           const candela::ReflectedBatch& out) const override {
         std::vector<float> seen(3 * s.count);

@@ -3,11 +3,9 @@
 #include "candela/shading_plugin.h"
 
 namespace {
-class DeniesItsWeights final : public candela::ShadingModel {
+class WeighsByArea : public candela::ShadingModel {
   public:
-    explicit DeniesItsWeights(const candela::sdk::NoParams&) {}
     candela::ShadingRate shading_rate() const noexcept override { return candela::ShadingRate::fragment; }
-    candela::ShadingNeeds needs() const noexcept override { return {.default_vertex_normals = true}; }
     void vertex_normals(const candela::MeshView& mesh, const candela::Vec3Span& normals) const override {
         for (std::size_t i = 0; i < mesh.group_count; ++i) normals.set(i, {});
         for (std::size_t c = 0; c < mesh.indices.size(); ++c) {
@@ -26,6 +24,12 @@ class DeniesItsWeights final : public candela::ShadingModel {
         for (std::size_t i = 0; i < points.count; ++i)
             normals.set(i, candela::normalized(points.vertex_normal[i]));
     }
+};
+
+class DeniesItsWeights final : public WeighsByArea {
+  public:
+    explicit DeniesItsWeights(const candela::sdk::NoParams&) {}
+    using candela::ShadingModel::vertex_normals;  // hides the override from the SDK, not from the host
 };
 }  // namespace
 

@@ -6,9 +6,9 @@
 namespace {
 class NanInSlivers final : public candela::ShadingModel {
   public:
+    static constexpr candela::ShadingNeeds k_needs{.triangle = true};
     explicit NanInSlivers(const candela::sdk::NoParams&) {}
     candela::ShadingRate shading_rate() const noexcept override { return candela::ShadingRate::fragment; }
-    candela::ShadingNeeds needs() const noexcept override { return {.triangle = true}; }
     void normals(const candela::ShadingPointBatch& points, const candela::Vec3Span& normals) const override {
         const candela::TriangleBatch& triangle = *points.triangle;
         for (std::size_t i = 0; i < points.count; ++i) {
