@@ -111,15 +111,26 @@ std::vector<fs::path> plugin_search_path(std::span<const fs::path> first) {
     return directories;
 }
 
+KernelError::KernelError(SourceLocation place, const std::string& message, std::string source)
+    : Error(ErrorCategory::invalid_scene,
+            fmt::format("{}:{}:{}: {}", place.file, place.line, place.column, message)),
+      place_(std::move(place)),
+      message_(message),
+      source_(std::move(source)) {}
+
+KernelError::~KernelError() = default;
+
 Registry::Registry(std::vector<fs::path> search_path, PluginTrust trust, std::size_t named_folders,
-                   ReplacementHandler on_replaced)
+                   ReplacementHandler on_replaced, KernelCompiler compile_kernel)
     : search_path_(std::move(search_path)),
       trust_(trust),
       named_folders_(named_folders),
-      on_replaced_(std::move(on_replaced)) {}
+      on_replaced_(std::move(on_replaced)),
+      compile_kernel_(std::move(compile_kernel)) {}
 
-const PluginFile* Registry::look_at(const fs::path& directory, const std::string& id, PluginKind kind,
-                                    std::string_view name) {
+std::unique_ptr<PluginFile> Registry::look_at(const fs::path& directory, PluginKind kind,
+                                              std::string_view name) {
+    const std::string id = id_of(kind, name);
     if (is_missing(directory)) return nullptr;
     const std::string stem = fmt::format("{}-{}", candela::name_of(kind), name);
     const fs::path manifest_path = directory / (stem + ".json");
@@ -127,7 +138,7 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
     const auto refuse = [&](const std::string& reason, Help help = {}) {
         refused_[library] = {library, fmt::format("plugin '{}' is refused: {}", library.string(), reason),
                              std::move(help)};
-        return nullptr;
+        return std::unique_ptr<PluginFile>();
     };
     const auto text = read_text_file(manifest_path, k_largest_manifest);
     if (!text || !is_readable(library)) {
@@ -183,16 +194,68 @@ const PluginFile* Registry::look_at(const fs::path& directory, const std::string
         return refuse(fmt::format("it cannot be loaded ({}); build it again, or remove it", damage));
     file->library = library;
     file->schema = std::make_shared<const std::vector<Parameter>>(file->manifest.parameters);
-    return (found_[id] = std::move(file)).get();
+    return file;
+}
+
+/// The file's plugin if it is of that kind. Throws Error.
+std::unique_ptr<PluginFile> Registry::plugin_of_kernel(PluginKind kind, const fs::path& file) {
+    if (!compile_kernel_)
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' is a kernel file, which cannot be used here", file.string()));
+    const CompiledKernel compiled = compile_kernel_(file);
+    if (compiled.kind != kind)
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' is a {} model; expected a {} model", file.string(),
+                                candela::name_of(compiled.kind), candela::name_of(kind)));
+    if (auto plugin = look_at(compiled.folder, kind, compiled.name)) return plugin;
+    const auto refused = refused_.find(library_of(compiled.folder, kind, compiled.name));
+    throw Error(ErrorCategory::failure,
+                refused != refused_.end() ? refused->second.reason
+                                          : fmt::format("the compiled '{}' has disappeared", file.string()));
+}
+
+const PluginFile* Registry::find_kernel(PluginKind kind, std::string_view file) {
+    const auto [entry, is_new] = kernels_.try_emplace({kind, std::string(file)});
+    if (is_new) {
+        try {
+            entry->second.plugin = plugin_of_kernel(kind, entry->first.second);
+        } catch (...) {
+            entry->second.problem = std::current_exception();
+        }
+    }
+    return entry->second.plugin.get();
+}
+
+const PluginFile& Registry::require_kernel(const std::string& file) {
+    if (!compile_kernel_)
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' is a kernel file, which cannot be used here", file));
+    return require(compile_kernel_(file).kind, file);
+}
+
+std::vector<fs::path> Registry::kernel_files() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<fs::path> files;
+    for (const auto& [named, entry] : kernels_) files.emplace_back(named.second);
+    return files;
+}
+
+void Registry::reread_kernel_files() {
+    const std::lock_guard lock(mutex_);
+    for (auto& [named, entry] : kernels_)
+        if (entry.plugin != nullptr) former_kernels_.push_back(std::move(entry.plugin));
+    kernels_.clear();
 }
 
 const PluginFile* Registry::find(PluginKind kind, std::string_view name) {
     const std::lock_guard lock(mutex_);
+    if (is_kernel_file(name)) return find_kernel(kind, name);
     const std::string id = id_of(kind, name);
     if (const auto known = found_.find(id); known != found_.end()) return known->second.get();
     if (name.find('/') != std::string_view::npos) return nullptr;
     for (std::size_t i = 0; i < search_path_.size(); ++i) {
-        if (const PluginFile* const file = look_at(search_path_[i], id, kind, name)) {
+        if (auto plugin = look_at(search_path_[i], kind, name)) {
+            const PluginFile* const file = (found_[id] = std::move(plugin)).get();
             report_replaced(*file, kind, name);
             return file;
         }
@@ -225,6 +288,8 @@ void Registry::report_replaced(const PluginFile& instead, PluginKind kind, std::
 const PluginFile& Registry::require(PluginKind kind, std::string_view name) {
     if (const PluginFile* const file = find(kind, name)) return *file;
     const std::lock_guard lock(mutex_);
+    if (const auto kernel = kernels_.find(std::pair(kind, std::string(name))); kernel != kernels_.end())
+        std::rethrow_exception(kernel->second.problem);
     if (const auto refused = refused_before(nullptr, kind, name); !refused.empty())
         throw Error(ErrorCategory::failure, refused.front()->reason, refused.front()->help);
     const std::vector<std::string> known = names(kind);
@@ -335,9 +400,8 @@ ParamSet Registry::parameters(PluginKind kind, std::string_view name) {
 
 const PluginDescriptor& Registry::load(const PluginFile& file) {
     const std::lock_guard lock(mutex_);
-    PluginFile& known = *found_.find(file.manifest.id())->second;
-    if (known.descriptor == nullptr) known.descriptor = &load_plugin(known.library, &known.manifest);
-    return *known.descriptor;
+    if (file.descriptor == nullptr) file.descriptor = &load_plugin(file.library, &file.manifest);
+    return *file.descriptor;
 }
 
 const PluginDescriptor& Registry::descriptor(PluginKind kind, std::string_view name) {

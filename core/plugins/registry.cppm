@@ -3,6 +3,7 @@ module;
 #include "candela/plugin/export.h"
 
 #include <cstddef>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -28,8 +29,8 @@ export namespace candela {
 struct PluginFile {
     Manifest manifest;
     std::filesystem::path library;
-    SharedSchema schema;                           // the manifest's parameters
-    const PluginDescriptor* descriptor = nullptr;  // once loaded
+    SharedSchema schema;                                   // the manifest's parameters
+    mutable const PluginDescriptor* descriptor = nullptr;  // once the registry has loaded it
 };
 
 /// A candidate that cannot be used, and one sentence with the reason and a remedy.
@@ -39,6 +40,34 @@ struct Refusal {
     Help help{};
     std::filesystem::path used_instead{};  // the next plugin of that name on the search path, if it was used
 };
+
+/// A kernel file that is not a model, and where: `place` in `source`, its text.
+class CANDELA_EXPORT KernelError : public Error {
+  public:
+    KernelError(SourceLocation place, const std::string& message, std::string source);
+    ~KernelError() override;
+    const SourceLocation& place() const noexcept { return place_; }
+    /// what() without the place.
+    const std::string& message() const noexcept { return message_; }
+    const std::string& source() const noexcept { return source_; }
+
+  private:
+    SourceLocation place_;
+    std::string message_, source_;
+};
+
+/// A plugin that was made of a kernel file: <kind>-<name>.so and its manifest in `folder`.
+struct CompiledKernel {
+    PluginKind kind = PluginKind::reflection;
+    std::string name;
+    std::filesystem::path folder;
+};
+
+/// Makes a plugin of a kernel file. Throws KernelError and Error. Any thread.
+using KernelCompiler = std::function<CompiledKernel(const std::filesystem::path& file)>;
+
+/// Whether the name of a model is that of a kernel file.
+constexpr bool is_kernel_file(std::string_view name) { return name.ends_with(".kernel"); }
 
 /// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins next to the core.
 CANDELA_EXPORT std::vector<std::filesystem::path> plugin_search_path(
@@ -82,20 +111,30 @@ using ReplacementHandler = std::function<void(const Refusal&)>;
 /// sound, judged without loading it. If an earlier one was refused, `on_replaced` is called. A refused plugin
 /// in the first `named_folders` folders, which the user has named for this purpose, is not replaced: then
 /// there is none. Failing to load the chosen library is an error.
+///
+/// Wherever a light, a reflection or a shading model is named, the path of a kernel file serves as well, if
+/// there is a KernelCompiler: the file is compiled when it is first named.
 class CANDELA_EXPORT Registry {
   public:
     explicit Registry(std::vector<std::filesystem::path> search_path,
                       PluginTrust trust = PluginTrust::own_and_system, std::size_t named_folders = 0,
-                      ReplacementHandler on_replaced = {});
+                      ReplacementHandler on_replaced = {}, KernelCompiler compile_kernel = {});
+
+    /// The kernel files that have been named.
+    std::vector<std::filesystem::path> kernel_files() const;
+    /// Kernel files are read again when they are named again; pointers to the plugins of before stay valid.
+    void reread_kernel_files();
 
     const std::vector<std::filesystem::path>& search_path() const noexcept { return search_path_; }
     PluginTrust trust() const noexcept { return trust_; }
 
-    /// The plugin of that name to use, or null.
+    /// The plugin of that name to use, or null. For a kernel file that cannot be used, require() says why.
     const PluginFile* find(PluginKind kind, std::string_view name);
     /// Like find(), but throws Error if there is none: the unknown name, why a candidate was refused, and a
     /// suggestion.
     const PluginFile& require(PluginKind kind, std::string_view name);
+    /// The plugin of a kernel file, whatever its kind. Throws Error.
+    const PluginFile& require_kernel(const std::string& file);
 
     /// All usable plugins, by kind and name.
     std::vector<const PluginFile*> list();
@@ -133,8 +172,10 @@ class CANDELA_EXPORT Registry {
     std::unique_ptr<Instance> create_instance(PluginKind kind, std::string_view name, const ParamSet& values,
                                               ColorEncoding encoding);
     [[noreturn]] static void throw_wrong_interface(PluginKind kind, std::string_view name);
-    const PluginFile* look_at(const std::filesystem::path& directory, const std::string& id, PluginKind kind,
-                              std::string_view name);
+    std::unique_ptr<PluginFile> look_at(const std::filesystem::path& directory, PluginKind kind,
+                                        std::string_view name);
+    const PluginFile* find_kernel(PluginKind kind, std::string_view file);
+    std::unique_ptr<PluginFile> plugin_of_kernel(PluginKind kind, const std::filesystem::path& file);
     /// The refused candidates of that name that precede `instead` (null: all), in search order.
     std::vector<Refusal*> refused_before(const PluginFile* instead, PluginKind kind, std::string_view name);
     void report_replaced(const PluginFile& instead, PluginKind kind, std::string_view name);
@@ -148,6 +189,14 @@ class CANDELA_EXPORT Registry {
     mutable std::recursive_mutex mutex_;
     std::set<PluginKind> scanned_;
     std::map<std::string, std::unique_ptr<PluginFile>, std::less<>> found_;  // by id; null: not found
+    KernelCompiler compile_kernel_;
+    /// A kernel file's plugin, or why there is none.
+    struct KernelEntry {
+        std::unique_ptr<PluginFile> plugin;
+        std::exception_ptr problem;
+    };
+    std::map<std::pair<PluginKind, std::string>, KernelEntry, std::less<>> kernels_;
+    std::vector<std::unique_ptr<PluginFile>> former_kernels_;
     std::map<std::filesystem::path, Refusal> refused_;
 };
 

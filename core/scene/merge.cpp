@@ -21,6 +21,7 @@ module candela.scene;
 
 import :merge;
 import :schema;
+import candela.plugins;
 import candela.util;
 
 namespace candela {
@@ -382,6 +383,37 @@ fs::path home_of(const SceneRequest& request) {
     return canonical_path(folder.empty() ? fs::current_path(problem) : folder);
 }
 
+/// Makes the path of a kernel file that names a model absolute. Paths from the command line (line 0) are
+/// relative to the working directory.
+void resolve_kernel_file(TableNode& table, std::string_view key) {
+    TableNode::Entry* const entry = table.find(key);
+    if (entry == nullptr) return;
+    auto* const name = std::get_if<std::string>(&entry->node.value);
+    if (name == nullptr || !is_kernel_file(*name)) return;
+    const SourceLocation& place = entry->node.place;
+    const fs::path base = place.line > 0 ? fs::path(place.file).parent_path() : fs::path();
+    std::error_code problem;
+    const fs::path file = fs::absolute(base / *name, problem);
+    if (!problem) *name = file.lexically_normal().string();
+}
+
+void resolve_kernel_files(TableNode& root) {
+    for (const char* const name : {"shading", "reflection"}) {
+        TableNode::Entry* const entry = root.find(name);
+        if (entry != nullptr && entry->node.table() != nullptr)
+            resolve_kernel_file(*entry->node.table(), "model");
+    }
+    for (const char* const name : {"light", "object"}) {
+        TableNode::Entry* const entry = root.find(name);
+        if (entry == nullptr || entry->node.array() == nullptr) continue;
+        for (Node& element : *entry->node.array()) {
+            if (element.table() == nullptr) continue;
+            for (const char* const key : {"type", "shading", "reflection"})
+                resolve_kernel_file(*element.table(), key);
+        }
+    }
+}
+
 }  // namespace
 
 std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagnostics& diagnostics) {
@@ -414,6 +446,7 @@ std::optional<MergedDocument> merge_documents(const SceneRequest& request, Diagn
             set_value(merged.root, setting.path, *std::move(value), place, diagnostics, &index);
         if (setting.path.ends_with("name")) index = ElementIndex(merged.root);
     }
+    resolve_kernel_files(merged.root);
     return merged;
 }
 

@@ -200,7 +200,7 @@ class Reader {
         const std::vector<std::string> keys = names_in(
             plugin->manifest.parameters, names_in(schema_of(table_name).parameters, std::move(more_keys)));
         report_unknown_keys(table, keys, context, diagnostics_);
-        return Model{plugin->manifest.name, tables_.read_plugin(table, *plugin, context)};
+        return Model{text(own, "type"), tables_.read_plugin(table, *plugin, context)};
     }
 
     void read_light(const TableNode& table, const SourceLocation& place, std::size_t index) {

@@ -94,6 +94,10 @@ const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, c
     if (const PluginFile* const plugin = registry_.find(kind, name)) return plugin;
     try {
         registry_.require(kind, name);
+    } catch (const KernelError& problem) {
+        if (!reported_kernels_.insert(name).second) return nullptr;
+        diagnostics_.remember_source(problem.place().file, problem.source());
+        diagnostics_.error(problem.place(), problem.message());
     } catch (const Error& problem) {
         diagnostics_.error(place, problem.what(), "", problem.help());
     }

@@ -206,7 +206,7 @@ std::string read_one_of(CommentReader line, std::initializer_list<std::string_vi
 constexpr std::array<std::string_view, 7> k_keywords = {
     "reference:", "properties:", "requires:", "expects:", "presets:", "preset:", "rate:"};
 
-/// What a part of the description begins with, other than prose.
+/// The keyword that begins a part of the description; empty if it is prose.
 std::string_view keyword_of(std::string_view line) {
     for (const std::string_view other : {"# ", "$$"})
         if (line.starts_with(other)) return other;
@@ -405,13 +405,12 @@ ParameterDeclaration read_parameter(const Variable& member, const std::optional<
         throw Refusal{
             member.type.place,
             fmt::format("a parameter is a float, int, vec3, mat3 or Table, not a {}", member.type.name)};
-    if (!comment) {
-        throw Refusal{member.place,
-                      fmt::format("the parameter '{}' has no comment that declares it; write, for example, "
-                                  "'/// = 0.5 [0, 1]: its meaning' after it",
-                                  member.name)};
-    }
     parameter.type = *usual;
+    if (!comment) {
+        parameter.is_required = true;
+        parameter.meaning = "of the kernel";
+        return parameter;
+    }
     CommentReader line(*comment);
     for (const auto& [word, type] : k_type_words) {
         if (!line.skip_word(word)) continue;

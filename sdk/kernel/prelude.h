@@ -1,4 +1,4 @@
-// What every kernel can use, and where problems with it are.
+// The declarations that every kernel can use, and positions of problems in texts.
 #pragma once
 
 #include <cstddef>

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "candela/file_descriptor.h"
+#include "candela/kernel_language/model_compiler.h"
 #include "cli/completion.h"
 #include "cli/manual.h"
 #include "cli/usual_options.h"
@@ -156,7 +157,8 @@ candela::Registry registry_from(const CommandLine& line) {
     require_folders_in_path();
     const auto trust = line.has("allow-untrusted-plugins") ? candela::PluginTrust::any
                                                            : candela::PluginTrust::own_and_system;
-    return candela::Registry(candela::plugin_search_path(first), trust, first.size(), report_replaced);
+    return candela::Registry(candela::plugin_search_path(first), trust, first.size(), report_replaced,
+                             candela::kernel_language::compile_kernel_file);
 }
 
 namespace {

@@ -22,6 +22,7 @@ namespace {
 
 /// The plugin "reflection/phong"; a name alone suffices if only one kind has it.
 const candela::PluginFile& plugin_called(const std::string& id, candela::Registry& registry) {
+    if (candela::is_kernel_file(id)) return registry.require_kernel(id);
     const auto slash = id.find('/');
     if (slash != std::string::npos) {
         if (const auto kind = candela::plugin_kind_named(id.substr(0, slash)))

@@ -37,6 +37,7 @@ std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::R
     if (!compiled) return std::nullopt;
     const std::vector<std::string> files = line.all("scene");
     std::vector<fs::path> inputs = candela::input_files(*draft);
+    for (fs::path& kernel : registry.kernel_files()) inputs.push_back(std::move(kernel));
     return SceneToExport{
         .title = files.empty() ? "The default scene" : fs::path(files.front()).stem().string(),
         .scene = std::move(draft->scene),

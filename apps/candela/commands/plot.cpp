@@ -35,9 +35,9 @@ double incidence_from(const CommandLine& line) {
     return degrees;
 }
 
-std::vector<NamedModel> models_from(const CommandLine& line) {
+std::vector<NamedModel> models_from(const CommandLine& line, candela::Registry& registry) {
     std::vector<NamedModel> models;
-    for (const std::string& text : line.all("model")) models.push_back(model_from(text));
+    for (const std::string& text : line.all("model")) models.push_back(model_from(text, registry));
     if (models.empty()) {
         throw Error(
             ErrorCategory::bad_request,
@@ -164,8 +164,8 @@ int run_plot(const std::vector<std::string>& arguments) {
     }
     require_free(file, output.existing);
     const double incidence = incidence_from(line);
-    std::vector<NamedModel> models = models_from(line);
     candela::Registry registry = registry_from(line);
+    std::vector<NamedModel> models = models_from(line, registry);
     for (const std::string& value : line.all("set")) set_where_known(models, value, registry);
     require_no_value(file, models);
     if (models.front().kind == candela::PluginKind::light) {

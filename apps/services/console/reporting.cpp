@@ -125,6 +125,12 @@ int run_and_report(const std::function<int()>& work) {
         std::cout.flush();
         if (!std::cout) return fail(ExitCode::failure, "cannot write to standard output");
         return code;
+    } catch (const candela::KernelError& problem) {
+        candela::Diagnostics diagnostics;
+        diagnostics.remember_source(problem.place().file, problem.source());
+        diagnostics.error(problem.place(), problem.message());
+        report(diagnostics);
+        return static_cast<int>(exit_code_of(problem.category()));
     } catch (const std::exception&) {
         const Failure failure = current_failure();
         return fail(failure.code, failure.message);

@@ -54,7 +54,7 @@ Error no_answer(const fs::path& file, const std::string& why) {
 }  // namespace
 
 const candela::PluginFile& loaded_model(const std::string& model, candela::Registry& registry) {
-    const std::size_t slash = model.find('/');
+    const std::size_t slash = candela::is_kernel_file(model) ? std::string::npos : model.find('/');
     const std::string kind = slash == std::string::npos ? "reflection" : model.substr(0, slash);
     const std::string name = slash == std::string::npos ? model : model.substr(slash + 1);
     if (kind != "reflection") {

@@ -70,11 +70,16 @@ std::pair<std::string, std::string> value_from(const std::string& text) {
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-NamedModel model_from(const std::string& text) {
+NamedModel model_from(const std::string& text, candela::Registry& registry) {
     const std::size_t colon = text.find(':');
     std::string name = text.substr(0, colon);
     PluginKind kind = PluginKind::reflection;
-    if (const std::size_t slash = name.find('/'); slash != std::string::npos) {
+    if (candela::is_kernel_file(name)) {
+        kind = registry.require_kernel(name).manifest.kind;
+        if (kind != PluginKind::reflection && kind != PluginKind::light)
+            throw Error(ErrorCategory::bad_request,
+                        fmt::format("'{}' cannot be plotted; expected a reflection model or a light", name));
+    } else if (const std::size_t slash = name.find('/'); slash != std::string::npos) {
         const auto named = candela::plugin_kind_named(name.substr(0, slash));
         if (named != PluginKind::reflection && named != PluginKind::light) {
             throw Error(ErrorCategory::bad_request,

@@ -21,7 +21,7 @@ struct NamedModel {
 
 /// Parses a model; a reflection model's kind may be left out. Throws candela::Error (bad_request) if the text
 /// is malformed or names a plugin that is neither a reflection model nor a light.
-NamedModel model_from(const std::string& text);
+NamedModel model_from(const std::string& text, candela::Registry& registry);
 /// Parses "shininess=20". Throws like model_from().
 std::pair<std::string, std::string> value_from(const std::string& text);
 

@@ -3,6 +3,7 @@ module;
 
 #include <initializer_list>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -69,6 +70,7 @@ class SceneTables {
     Registry& registry_;
     Diagnostics& diagnostics_;
     std::map<std::string, const TableNode*> singles_;
+    std::set<std::string> reported_kernels_;
 };
 
 }  // namespace candela

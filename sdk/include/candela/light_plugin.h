@@ -31,7 +31,7 @@
 
 namespace candela::sdk {
 
-/// What a kernel says of a light, for reflection models.
+/// A kernel's description of a light, for reflection models.
 inline PunctualLight punctual_light(const kernel::Punctual& given) {
     PunctualLight light;
     light.position = {given.position.x, given.position.y, given.position.z};

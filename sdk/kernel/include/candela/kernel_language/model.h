@@ -46,7 +46,7 @@ struct PresetDeclaration {
     std::optional<std::vector<float>> color{};
 };
 
-/// What a model's kernel reads of what the renderer can compute, by the names in prelude.kernel.
+/// The members of the renderer's structs, by their names in prelude.kernel, that a model's kernel reads.
 struct KernelReads {
     std::set<std::string> surface{}, receiver{}, shading_point{};
 };

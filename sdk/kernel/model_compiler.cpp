@@ -1,0 +1,223 @@
+#include "candela/kernel_language/model_compiler.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "candela/kernel_language/compiler.h"
+#include "candela/kernel_language/language.h"
+#include "candela/kernel_language/model.h"
+#include "sandbox/temporary_folder.h"
+
+import candela.api;
+import candela.plugins;
+import candela.util;
+
+namespace fs = std::filesystem;
+
+namespace candela::kernel_language {
+
+namespace {
+
+/// FNV-1a (Fowler, Noll, Vo 1991), 64 bits. That two texts are the same is not concluded from it alone.
+class Hash {
+  public:
+    Hash& add(std::string_view text) {
+        for (const char c : text) value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+        value_ = (value_ ^ 0xff) * 0x100000001b3;
+        return *this;
+    }
+    std::string text() const { return fmt::format("{:016x}", value_); }
+
+  private:
+    std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+std::vector<std::string> options() {
+    return {"-O3",
+            "-fPIC",
+            "-shared",
+            "-fvisibility=hidden",
+            "-fno-math-errno",
+            "-fno-trapping-math",
+            "-fwrapv",  // defines integer overflow in kernels
+            "-fstack-clash-protection",
+#ifdef __x86_64__
+            "-mprefer-vector-width=512",
+#endif
+            "-w",
+            "-DCANDELA_PLUGIN_VERSION=\"0\""};
+}
+
+/// All headers that a plugin of a model includes.
+void add_headers(const fs::path& include, Hash& hash) {
+    for (const char* const folder : {"candela", "candela/kernel", "candela/plugin"}) {
+        std::vector<std::string> names = names_in(include / folder).value_or(std::vector<std::string>());
+        std::ranges::sort(names);
+        for (const std::string& name : names)
+            if (const auto text = read_text_file(include / folder / name)) hash.add(name).add(*text);
+    }
+}
+
+[[noreturn]] void refuse(const Problem& problem, const std::string& text) {
+    throw KernelError({problem.file(), static_cast<int>(problem.line()), static_cast<int>(problem.column())},
+                      problem.what(), text);
+}
+
+/// The kernel, with the function that only a model which reflects ambient light needs to have.
+std::string completed(const Kernel& kernel, const std::string& prefix) {
+    const std::string& text = kernel.sources.front().text;
+    std::string material;
+    bool reflects = false;
+    for (const Declaration& declaration : kernel.declarations) {
+        const auto* const function = std::get_if<Function>(&declaration);
+        if (function == nullptr) continue;
+        if (function->name == prefix + "_reflect_ambient") return text;
+        if (function->name != prefix + "_reflect" || function->parameters.empty()) continue;
+        reflects = true;
+        const Variable& first = function->parameters.front();
+        if (first.type.name != "Surface") material = fmt::format("{} {}, ", first.type.name, first.name);
+    }
+    if (!reflects) return text;
+    return fmt::format("{}{}\nKERNEL vec3 {}_reflect_ambient({}Surface s) {{\n    return vec3(0.0f);\n}}\n",
+                       text, text.ends_with('\n') ? "" : "\n", prefix, material);
+}
+
+/// A text in its language, and what it declares.
+struct CheckedModel {
+    std::string text;
+    std::string code;  // C++
+    ModelDeclaration model;
+};
+
+CheckedModel check(const Source& kernel, std::string_view name) {
+    try {
+        std::string prefix(name);
+        std::ranges::replace(prefix, '-', '_');
+        const std::string text = completed(read_kernel(kernel), prefix);
+        const Kernel whole = read_kernel({kernel.name, text});
+        return {text, emitted(whole, Emission::guarded_cpp), read_model(whole, name)};
+    } catch (const Problem& problem) {
+        refuse(problem, kernel.text);
+    }
+}
+
+void write(const fs::path& file, std::string_view text) {
+    OutputFile out(file, Existing::replaced);
+    out.write(text);
+    out.finish();
+}
+
+/// Replaces the temporary folder, which users do not know, in a compiler's message.
+std::string without(const fs::path& folder, std::string message) {
+    const std::string path = folder.string() + "/";
+    for (std::size_t at = message.find(path); at != std::string::npos; at = message.find(path, at))
+        message.erase(at, path.size());
+    return message;
+}
+
+/// Compiles a model to a plugin in `folder`.
+void build(const CheckedModel& checked, const fs::path& compiler, const fs::path& headers,
+           const fs::path& folder, const std::string& library) {
+    const std::string& name = checked.model.name;
+    write(folder / (name + ".kernel"), checked.text);
+    write(folder / (name + ".inc"), checked.code);
+    write(folder / (name + ".cpp"), plugin_source(checked.model, (folder / (name + ".inc")).string()));
+    write(folder / "plugin.map", "{ global: candela_*; local: *; };\n");
+    std::vector<std::string> words = options();
+    words.insert(words.end(),
+                 {fmt::format("-DCANDELA_PLUGIN_NAME=\"{}\"", name),
+                  fmt::format("-DCANDELA_KERNEL_FILE=\"{}\"", (folder / (name + ".kernel")).string()), "-I",
+                  headers.string(), "-Wl,--version-script=" + (folder / "plugin.map").string()});
+    const fs::path core = plugin_search_path({}).back().parent_path().parent_path() / CANDELA_CORE_FILE;
+    const fs::path output = folder / (library + ".so");
+    const CompilerReport report = compile(compiler, {.options = std::move(words),
+                                                     .inputs = {folder / (name + ".cpp"), core},
+                                                     .output = output,
+                                                     .temporary = folder});
+    if (!report.is_success) {
+        throw Error(ErrorCategory::failure,
+                    fmt::format("{} could not compile the kernel: {}", compiler.filename().string(),
+                                without(folder, first_error(report.log))));
+    }
+    write(folder / (library + ".json"), to_json(manifest_of(load_plugin(output, nullptr), host_abi())));
+    for (const char* const extension : {".inc", ".cpp"}) fs::remove(folder / (name + extension));
+    fs::remove(folder / "plugin.map");
+}
+
+bool is_complete(const fs::path& folder, const CheckedModel& checked, const std::string& library) {
+    std::error_code problem;
+    return fs::exists(folder / (library + ".json"), problem) &&
+           fs::exists(folder / (library + ".so"), problem) &&
+           read_text_file(folder / (checked.model.name + ".kernel")) == checked.text;
+}
+
+}  // namespace
+
+fs::path kernel_cache() {
+    const auto variable = [](const char* name) {
+        const char* const value = std::getenv(name);
+        return fs::path(value != nullptr ? value : "");
+    };
+    if (const fs::path cache = variable("XDG_CACHE_HOME"); cache.is_absolute())
+        return cache / "candela/kernels";
+    if (const fs::path home = variable("HOME"); home.is_absolute()) return home / ".cache/candela/kernels";
+    return fs::temp_directory_path() / fmt::format("candela-kernels-{}", ::geteuid());
+}
+
+CompiledKernel compile_model(const Source& kernel, std::string_view name, const fs::path& cache) {
+    const CheckedModel checked = check(kernel, name);
+    const std::string library = fmt::format("{}-{}", name_of(checked.model.kind), checked.model.name);
+    const auto compiler = cxx_compiler();
+    if (!compiler)
+        throw Error(ErrorCategory::failure,
+                    "a kernel needs a C++ compiler, and none is installed (packages g++ or clang)");
+    const fs::path headers = kernel_headers();
+    if (headers.empty())
+        throw Error(ErrorCategory::failure,
+                    "a kernel needs Candela's headers, which are not installed (package candela-dev)");
+    Hash hash;
+    hash.add(checked.model.name).add(checked.text).add(host_abi()).add(compiler->string());
+    for (const std::string& option : options()) hash.add(option);
+    add_headers(headers, hash);
+    const fs::path folder = cache / hash.text();
+    const CompiledKernel compiled{checked.model.kind, checked.model.name, folder};
+    if (is_complete(folder, checked, library)) return compiled;
+
+    fs::create_directories(cache);
+    const TemporaryFolder temporary("new-", cache);
+    const fs::path made = temporary.path() / "plugin";
+    fs::create_directory(made);
+    fs::permissions(made, fs::perms::owner_all);
+    build(checked, *compiler, headers, made, library);
+    // Appears complete or not at all; another process may have been faster.
+    std::error_code problem;
+    fs::rename(made, folder, problem);
+    if (!is_complete(folder, checked, library))
+        throw Error(ErrorCategory::failure, fmt::format("the compiled kernel cannot be moved to '{}': {}",
+                                                        folder.string(), problem.message()));
+    return compiled;
+}
+
+CompiledKernel compile_kernel_file(const fs::path& file) {
+    std::string name;
+    try {
+        name = model_name(file);
+    } catch (const std::invalid_argument& problem) {
+        throw Error(ErrorCategory::bad_request, problem.what());
+    }
+    const auto text = read_text_file(file, k_longest_text + 1);
+    if (!text)
+        throw Error(ErrorCategory::failure, fmt::format("the kernel '{}' cannot be read", file.string()));
+    return compile_model({file.string(), *text}, name, kernel_cache());
+}
+
+}  // namespace candela::kernel_language
