@@ -32,42 +32,18 @@ using Json = nlohmann::ordered_json;
 
 constexpr int k_manifest_version = 1;
 
-Json json_of(const Value& value) {
-    struct Writer {
-        Json operator()(bool b) const { return b; }
-        Json operator()(std::int64_t i) const { return i; }
-        Json operator()(double d) const { return d; }
-        Json operator()(const std::string& s) const { return s; }
-        Json operator()(const Vec3& v) const {
-            return Json::array({shortest(v.x), shortest(v.y), shortest(v.z)});
-        }
-        Json operator()(const Matrix& m) const {
-            Json rows = Json::array();
-            for (std::size_t i = 0; i < m.size(); i += 3)
-                rows.push_back((*this)(Vec3{m[i], m[i + 1], m[i + 2]}));
-            return rows;
-        }
-        Json operator()(const NumberList& list) const {
-            Json numbers = Json::array();
-            for (const float x : list) numbers.push_back(shortest(x));
-            return numbers;
-        }
-    };
-    return std::visit(Writer{}, value);
+Json json_of(const Value& value, ParamType type) {
+    if (const auto* const text = std::get_if<std::string>(&value)) return *text;
+    // A scene may have one number for three; a manifest does not.
+    return Json::parse(toml_text(value, type == ParamType::rgb ? ParamType::vector : type));
 }
-
-/// A colour's channels are integers.
-Json color_json(const Vec3& v) { return Json::array({std::lround(v.x), std::lround(v.y), std::lround(v.z)}); }
 
 Json json_of(const Parameter& p) {
     Json json;
     json["name"] = p.name;
     json["type"] = name_of(p.type);
     if (!p.unit.empty()) json["unit"] = p.unit;
-    if (p.default_value) {
-        json["default"] = p.type == ParamType::color ? color_json(std::get<Vec3>(*p.default_value))
-                                                     : json_of(*p.default_value);
-    }
+    if (p.default_value) json["default"] = json_of(*p.default_value, p.type);
     if (p.minimum != k_no_minimum) json[p.minimum_excluded ? "above" : "minimum"] = shortest(p.minimum);
     if (p.maximum != k_no_maximum) json[p.maximum_excluded ? "below" : "maximum"] = shortest(p.maximum);
     if (!p.choices.empty()) json["choices"] = p.choices;
@@ -79,10 +55,9 @@ Json json_of(const Preset& p, const std::vector<Parameter>& parameters) {
     Json json{{"name", p.name}, {"source", p.source}, {"values", Json::object()}};
     for (const auto& [name, value] : p.values) {
         const auto of = std::ranges::find(parameters, name, &Parameter::name);
-        const bool is_color = of != parameters.end() && of->type == ParamType::color;
-        json["values"][name] = is_color ? color_json(std::get<Vec3>(value)) : json_of(value);
+        json["values"][name] = json_of(value, of != parameters.end() ? of->type : ParamType::real);
     }
-    if (p.color) json["color"] = color_json(*p.color);
+    if (p.color) json["color"] = json_of(*p.color, ParamType::color);
     return json;
 }
 

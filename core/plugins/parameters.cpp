@@ -35,34 +35,6 @@ std::optional<Enum> enum_named(const std::array<std::string_view, count>& names,
     return static_cast<Enum>(found - names.begin());
 }
 
-Vec3 vec3_of(const ParamValue& value) { return {value.number[0], value.number[1], value.number[2]}; }
-
-/// Converts a default to the form in which users write it.
-Value value_of(const ParamSpec& spec, const ParamValue& value) {
-    switch (spec.type) {
-        case ParamType::real:
-            return shortest(value.number[0]);
-        case ParamType::integer:
-            return std::int64_t{value.integer};
-        case ParamType::boolean:
-            return value.integer != 0;
-        case ParamType::choice:
-            return std::string(spec.choices[static_cast<std::size_t>(value.integer)]);
-        case ParamType::text:
-        case ParamType::file:
-            return std::string(value.text != nullptr ? value.text : "");
-        case ParamType::matrix: {
-            Matrix rows{};
-            std::copy_n(value.number, rows.size(), rows.begin());
-            return rows;
-        }
-        case ParamType::numbers:
-            return NumberList(value.list.begin(), value.list.end());
-        default:
-            return vec3_of(value);
-    }
-}
-
 bool holds(const Value& value, ParamType type) {
     switch (type) {
         case ParamType::real:
@@ -109,13 +81,6 @@ bool above(double x, const Parameter& p) {
 
 }  // namespace
 
-double shortest(float x) {
-    if (!std::isfinite(x)) return static_cast<double>(x);
-    const double decimal = std::stod(fmt::format("{}", x));
-    // Rarely, rounding twice yields the float's neighbour.
-    return static_cast<float>(decimal) == x ? decimal : static_cast<double>(x);
-}
-
 std::optional<ParamType> param_type_named(std::string_view name) noexcept {
     for (int type = 0; type <= static_cast<int>(ParamType::numbers); ++type) {
         if (name_of(static_cast<ParamType>(type)) == name) return static_cast<ParamType>(type);
@@ -161,24 +126,6 @@ Preset preset_of(const PresetSpec& spec, std::span<const ParamSpec> parameters) 
     }
     if (spec.has_color) result.color = Vec3{spec.color[0], spec.color[1], spec.color[2]};
     return result;
-}
-
-std::string text_of(const Value& value) {
-    struct Writer {
-        std::string operator()(bool b) const { return b ? "true" : "false"; }
-        std::string operator()(std::int64_t i) const { return std::to_string(i); }
-        std::string operator()(double d) const { return fmt::format("{}", d); }
-        std::string operator()(const std::string& s) const { return fmt::format("\"{}\"", s); }
-        std::string operator()(const Vec3& v) const { return fmt::format("[{}, {}, {}]", v.x, v.y, v.z); }
-        std::string operator()(const Matrix& m) const {
-            return fmt::format("[[{}, {}, {}], [{}, {}, {}], [{}, {}, {}]]", m[0], m[1], m[2], m[3], m[4],
-                               m[5], m[6], m[7], m[8]);
-        }
-        std::string operator()(const NumberList& list) const {
-            return fmt::format("[{}]", fmt::join(list, ", "));
-        }
-    };
-    return std::visit(Writer{}, value);
 }
 
 std::string text_of(const Relation& r) {
@@ -332,54 +279,22 @@ const Value& ParamSet::get(std::string_view name) const {
 }
 
 std::vector<ParamValue> ParamSet::runtime(ColorEncoding encoding) const {
-    std::vector<ParamValue> result(schema_->size());
+    std::vector<ParamValue> result;
     for (std::size_t i = 0; i < schema_->size(); ++i) {
         const Parameter& p = (*schema_)[i];
         if (!values_[i]) throw std::invalid_argument(fmt::format("'{}' must be given", p.name));
-        const Value& value = *values_[i];
-        const auto put = [&](Vec3 v) {
-            result[i].number[0] = v.x;
-            result[i].number[1] = v.y;
-            result[i].number[2] = v.z;
+        ParamValue& value = result.emplace_back(written_value(*values_[i], p));
+        const auto put = [&](float x, float y, float z) {
+            std::ranges::copy(std::array{x, y, z}, value.number);
         };
-        switch (p.type) {
-            case ParamType::real: {
-                const auto x = static_cast<float>(std::get<double>(value));
-                result[i].number[0] = p.unit == "deg" ? x * 0.0174532925f : x;
-                break;
-            }
-            case ParamType::integer:
-                result[i].integer = static_cast<std::int32_t>(std::get<std::int64_t>(value));
-                break;
-            case ParamType::boolean:
-                result[i].integer = std::get<bool>(value) ? 1 : 0;
-                break;
-            case ParamType::choice: {
-                const auto found = std::ranges::find(p.choices, std::get<std::string>(value));
-                result[i].integer = static_cast<std::int32_t>(found - p.choices.begin());
-                break;
-            }
-            case ParamType::text:
-            case ParamType::file:
-                result[i].text = std::get<std::string>(value).c_str();
-                break;
-            case ParamType::matrix:
-                std::ranges::copy(std::get<Matrix>(value), result[i].number);
-                break;
-            case ParamType::numbers:
-                result[i].list = std::get<NumberList>(value);
-                break;
-            case ParamType::color: {
-                const Rgb rgb = decoded(std::get<Vec3>(value), encoding);
-                put({rgb.r, rgb.g, rgb.b});
-                break;
-            }
-            case ParamType::direction:
-                put(normalized(std::get<Vec3>(value)));
-                break;
-            default:
-                put(std::get<Vec3>(value));
-                break;
+        if (p.type == ParamType::real && p.unit == "deg") {
+            value.number[0] *= 0.0174532925f;
+        } else if (p.type == ParamType::color) {
+            const Rgb rgb = decoded(std::get<Vec3>(*values_[i]), encoding);
+            put(rgb.r, rgb.g, rgb.b);
+        } else if (p.type == ParamType::direction) {
+            const Vec3 unit = normalized(std::get<Vec3>(*values_[i]));
+            put(unit.x, unit.y, unit.z);
         }
     }
     return result;

@@ -64,6 +64,10 @@ struct Preset {
     friend bool operator==(const Preset&, const Preset&) = default;
 };
 
+/// A value in the form that crosses to plugins, but as written: degrees, colours 0-255. Texts and lists point
+/// into `value`.
+CANDELA_EXPORT ParamValue written_value(const Value& value, const Parameter& parameter);
+
 CANDELA_EXPORT Parameter parameter_of(const ParamSpec& spec);
 /// Throws Error (failure) if the preset sets a parameter that does not exist.
 CANDELA_EXPORT Preset preset_of(const PresetSpec& spec, std::span<const ParamSpec> parameters);
@@ -79,8 +83,12 @@ CANDELA_EXPORT std::string constraint_text(const Parameter& parameter);
 /// The range alone: "0 to 1", "greater than 0", or empty.
 CANDELA_EXPORT std::string range_text(const Parameter& parameter);
 
-/// A value as written in a scene file.
+/// A value in messages: 2, [1, 0.5, 0].
 CANDELA_EXPORT std::string text_of(const Value& value);
+
+/// A value of that type as a scene has it: 2.0, [1.0, 0.5, 0.0]. Three equal numbers of an `rgb` are one; a
+/// colour's channels are rounded to integers.
+CANDELA_EXPORT std::string toml_text(const Value& value, ParamType type);
 
 /// The requirement of a relation: "inner_angle does not exceed outer_angle: the cone of full light …".
 CANDELA_EXPORT std::string text_of(const Relation& relation);
@@ -126,5 +134,12 @@ class CANDELA_EXPORT ParamSet {
 
 /// How `set` violates the relation, or nothing.
 CANDELA_EXPORT std::optional<std::string> validation_error(const Relation& relation, const ParamSet& set);
+
+}  // namespace candela
+
+namespace candela {
+
+/// A declared value as users write it.
+Value value_of(const ParamSpec& spec, const ParamValue& value);
 
 }  // namespace candela

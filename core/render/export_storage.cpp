@@ -23,31 +23,6 @@ namespace candela {
 
 namespace {
 
-/// A value as written in a scene, in the form in which values cross to plugins.
-ParamValue written_value(const Value& value, const Parameter& parameter) {
-    ParamValue result;
-    if (const auto* boolean = std::get_if<bool>(&value)) result.integer = *boolean ? 1 : 0;
-    if (const auto* whole = std::get_if<std::int64_t>(&value))
-        result.integer = static_cast<std::int32_t>(*whole);
-    if (const auto* real = std::get_if<double>(&value)) result.number[0] = static_cast<float>(*real);
-    if (const auto* vector = std::get_if<Vec3>(&value)) {
-        result.number[0] = vector->x;
-        result.number[1] = vector->y;
-        result.number[2] = vector->z;
-    }
-    if (const auto* rows = std::get_if<Matrix>(&value)) std::ranges::copy(*rows, result.number);
-    if (const auto* list = std::get_if<NumberList>(&value)) result.list = *list;
-    if (const auto* text = std::get_if<std::string>(&value)) {
-        if (parameter.type == ParamType::choice) {
-            const auto at = std::ranges::find(parameter.choices, *text);
-            result.integer = static_cast<std::int32_t>(at - parameter.choices.begin());
-        } else {
-            result.text = text->c_str();
-        }
-    }
-    return result;
-}
-
 /// Whether a parameter is a table of the plugin's kernel, which has neither texts nor lists.
 bool is_table(const PluginDescriptor& plugin, std::size_t parameter) {
     const ParamType type = plugin.parameters[parameter].type;

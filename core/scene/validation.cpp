@@ -153,7 +153,7 @@ std::string joined(const std::string& a, const std::string& b) {
     return a.empty() || b.empty() ? a + b : a + "  " + b;
 }
 
-std::string triple_text(Vec3 v) { return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", v.x, v.y, v.z); }
+std::string color_text(Vec3 color) { return toml_text(color, ParamType::color); }
 
 /// The colour that a string names, as on the web.
 std::optional<Vec3> color_called(std::string_view text) {
@@ -202,7 +202,7 @@ std::string color_hint(const Node& node) {
     constexpr std::string_view k_channels = "three integers 0 to 255";
     if (const auto* const text = std::get_if<std::string>(&node.value)) {
         const auto color = color_called(*text);
-        return fmt::format("write {}", color ? triple_text(*color) : std::string(k_channels));
+        return fmt::format("write {}", color ? color_text(*color) : std::string(k_channels));
     }
     std::array<double, 3> values{};
     if (const auto grey = number(node, false)) {
@@ -221,7 +221,7 @@ std::string color_hint(const Node& node) {
     const bool are_fractions = std::ranges::all_of(values, [](double v) { return v <= 1; });
     const auto channel = [&](double v) { return static_cast<float>(are_fractions ? 255 * v : v); };
     return fmt::format("did you mean {}?",
-                       triple_text({channel(values[0]), channel(values[1]), channel(values[2])}));
+                       color_text({channel(values[0]), channel(values[1]), channel(values[2])}));
 }
 
 /// Whether the value is written in the file, rather than interpolated by an animation.
@@ -285,8 +285,8 @@ std::optional<Value> valid_value(const Node& node, const Parameter& p, Diagnosti
         if (std::max({color.x, color.y, color.z}) == 1 && is_written_as_list(node, diagnostics)) {
             diagnostics.warning(
                 node.place,
-                fmt::format("'{}': {} is almost black, as channels are 0 to 255", p.name, triple_text(color)),
-                fmt::format("did you mean {}?", triple_text(255.0f * color)));
+                fmt::format("'{}': {} is almost black, as channels are 0 to 255", p.name, color_text(color)),
+                fmt::format("did you mean {}?", color_text(255.0f * color)));
         }
     }
     if (p.type == ParamType::file) {

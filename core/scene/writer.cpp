@@ -29,36 +29,15 @@ namespace {
     throw Error(ErrorCategory::failure, "the scene cannot be written as a file: " + what);
 }
 
-std::string vector_text(Vec3 v) {
-    return fmt::format("[{}, {}, {}]", toml_text(v.x), toml_text(v.y), toml_text(v.z));
-}
-
-std::string color_text(Vec3 color) {
-    for (const float channel : {color.x, color.y, color.z}) {
-        if (channel != std::floor(channel))
-            cannot_say(fmt::format("{} in a colour is not an integer", channel));
-    }
-    return fmt::format("[{:.0f}, {:.0f}, {:.0f}]", color.x, color.y, color.z);
-}
-
-std::string rgb_text(Vec3 v) { return v.x == v.y && v.y == v.z ? toml_text(v.x) : vector_text(v); }
-
 std::string value_text(const Value& value, ParamType type) {
-    if (const auto* const boolean = std::get_if<bool>(&value)) return *boolean ? "true" : "false";
-    if (const auto* const integer = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *integer);
-    if (const auto* const real = std::get_if<double>(&value)) return toml_text(*real);
-    if (const auto* const text = std::get_if<std::string>(&value)) return toml_text(*text);
-    if (const auto* const m = std::get_if<Matrix>(&value)) {
-        const auto row = [&](std::size_t i) { return vector_text({(*m)[i], (*m)[i + 1], (*m)[i + 2]}); };
-        return fmt::format("[{}, {}, {}]", row(0), row(3), row(6));
+    if (type == ParamType::color) {
+        const Vec3 color = std::get<Vec3>(value);
+        for (const float channel : {color.x, color.y, color.z}) {
+            if (channel != std::floor(channel))
+                cannot_say(fmt::format("{} in a colour is not an integer", channel));
+        }
     }
-    if (const auto* const list = std::get_if<NumberList>(&value)) {
-        std::string text;
-        for (const float x : *list) text += (text.empty() ? "" : ", ") + toml_text(x);
-        return fmt::format("[{}]", text);
-    }
-    const Vec3 v = std::get<Vec3>(value);
-    return type == ParamType::color ? color_text(v) : type == ParamType::rgb ? rgb_text(v) : vector_text(v);
+    return toml_text(value, type);
 }
 
 /// Whether the model has only default parameters.

@@ -53,6 +53,15 @@ CANDELA_EXPORT std::string suggestion(std::string_view name, std::span<const std
 CANDELA_EXPORT std::optional<std::string> closest(std::string_view name,
                                                   std::span<const std::string> candidates);
 
+/// A value as TOML, and as JSON unless it contains a hidden character: a string in double quotes, with
+/// escapes (throws Error if it is not UTF-8); a number in as few digits as read back as the same number,
+/// never as an integer (throws Error if it is not finite).
+CANDELA_EXPORT std::string toml_text(std::string_view text);
+CANDELA_EXPORT std::string toml_text(double x);
+CANDELA_EXPORT std::string toml_text(float x);
+/// A key as TOML, quoted if necessary.
+CANDELA_EXPORT std::string toml_key(std::string_view key);
+
 /// "12.9 GB", in powers of ten.
 CANDELA_EXPORT std::string size_text(std::uint64_t bytes);
 

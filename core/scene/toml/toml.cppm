@@ -89,12 +89,6 @@ CANDELA_EXPORT std::optional<TableNode> parse_document(std::string_view text, co
 CANDELA_EXPORT std::optional<Node> parse_value(std::string_view text, const SourceLocation& place,
                                                Diagnostics& diagnostics);
 
-/// Values as TOML: a string in double quotes, with escapes (throws Error if it is not UTF-8); a number in as
-/// few digits as read back as the same number (throws Error if it is not finite); a key, quoted if necessary.
-CANDELA_EXPORT std::string toml_text(std::string_view text);
-CANDELA_EXPORT std::string toml_text(double x);
-CANDELA_EXPORT std::string toml_text(float x);
-CANDELA_EXPORT std::string toml_key(std::string_view key);
 /// Any value, on one line.
 CANDELA_EXPORT std::string toml_text(const Node& node);
 

@@ -10,9 +10,10 @@ module;
 #include <string>
 #include <string_view>
 
-module candela.scene;
+module candela.util;
 
-import candela.util;
+import :diagnostics;
+import :text;
 
 namespace candela {
 
