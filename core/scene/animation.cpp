@@ -96,7 +96,7 @@ class AnimationReader {
 
     template <class T>
     void read(const TableNode& node, const Table<T>& table, const TableContext& context, T& to) {
-        table.assign(&node, read_parameters(node, table.schema(), context, diagnostics_), to);
+        table.assign(&node, read_parameters(node, table.schema(), context, diagnostics_).set, to);
     }
 
     void read_tracks(const TableNode::Entry& entry) {

@@ -13,6 +13,7 @@ module;
 
 module candela.scene;
 
+import :fields;
 import :models;
 import :tables;
 import :vocabulary;
@@ -42,8 +43,9 @@ std::optional<ModelChooser::Named> ModelChooser::named(const std::string& table_
     if (setting) return Named{setting->name, {setting->origin, 0, 0, 0}};
     const TableNode* const table = tables_.single(table_name);
     if (table == nullptr) return std::nullopt;
-    const ParamSet values = read_parameters(*table, schema_of(table_name).parameters,
-                                            tables_.context_of(table_name), tables_.diagnostics());
+    const Table<Model>& fields = table_name == "shading" ? own_tables().shading : own_tables().reflection;
+    const ParamSet values =
+        read_parameters(*table, fields.schema(), tables_.context_of(table_name), tables_.diagnostics()).set;
     if (!has(values, "model")) return std::nullopt;
     return Named{text(values, "model"), table->find("model")->node.place};
 }
@@ -104,7 +106,9 @@ void ModelChooser::read_shading_table() {
     context.lists_keys = false;
     report_unknown_keys(*table, names_in(plugin->manifest.parameters, {"model"}), context,
                         tables_.diagnostics());
-    shading_parameters_ = tables_.read_plugin(*table, *plugin, context);
+    shading_parameters_ =
+        read_parameters(*table, plugin->schema, context, tables_.diagnostics(), plugin->manifest.relations)
+            .set;
 }
 
 Model ModelChooser::shading_for(const TableNode& object) {
@@ -143,7 +147,9 @@ Model ModelChooser::reflection_for(const TableNode& object, const std::string& l
                                "",
                                hints_for("material", tables_.registry())};
     report_unknown_material_keys(material, *plugin, context);
-    return {model->name, tables_.read_plugin(material, *plugin, context)};
+    return {model->name, read_parameters(material, plugin->schema, context, tables_.diagnostics(),
+                                         plugin->manifest.relations)
+                             .set};
 }
 
 /// If a reflection model is set for all objects, a material written for another model is not an error: keys

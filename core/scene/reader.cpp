@@ -3,7 +3,6 @@ module;
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -51,8 +50,7 @@ class Reader {
             {.where = "the scene", .help = {}, .place = tables_.whole(), .hint = hints_for("", registry_)},
             diagnostics_);
         draft_.files = files_;
-        tables_.read(own_tables().room, scene_.room);
-        draft_.has_room = tables_.has_valid("room", {"height", "width", "depth"});
+        draft_.has_room = tables_.read(own_tables().room, scene_.room).are_valid();
         read_observer();
         read_image();
         tables_.read(own_tables().constraints, scene_.constraints);
@@ -102,14 +100,14 @@ class Reader {
             return;
         }
         Observer& observer = scene_.observer;
-        tables_.read(own_tables().observer, observer);
+        const TableValues values = tables_.read(own_tables().observer, observer);
         // A unit vector is preserved exactly, so that a written scene reads back as the same scene.
         if (std::abs(length(observer.up) - 1) >= 1e-6f) observer.up = normalized(observer.up);
         const TableNode* const table = tables_.single("observer");
         if (table == nullptr) return;
-        draft_.has_observer = tables_.has_valid("observer", {"position"});
-        if (tables_.has_valid("observer", {"position", "look_at", "up"})) check_view(*table);
-        if (tables_.has_valid("observer", {"projection"})) warn_of_unused(*table);
+        draft_.has_observer = values.is_valid("position");
+        if (values.are_valid({"position", "look_at", "up"})) check_view(*table);
+        if (values.is_valid("projection")) warn_of_unused(*table);
     }
 
     /// Whether the observer's view is well defined.
@@ -188,9 +186,9 @@ class Reader {
     }
 
     /// Reads a plugin named by `type` with its parameters, which are next to the table's own keys.
-    std::optional<Model> read_typed(const std::string& table_name, PluginKind kind, const TableNode& table,
-                                    const ParamSet& own, TableContext context,
-                                    std::vector<std::string> more_keys) {
+    std::optional<TableValues> read_typed(const std::string& table_name, PluginKind kind,
+                                          const TableNode& table, const ParamSet& own, TableContext context,
+                                          std::vector<std::string> more_keys) {
         if (!has(own, "type")) return std::nullopt;
         const PluginFile* const plugin =
             tables_.known(kind, text(own, "type"), table.find("type")->node.place);
@@ -200,20 +198,24 @@ class Reader {
         const std::vector<std::string> keys = names_in(
             plugin->manifest.parameters, names_in(schema_of(table_name).parameters, std::move(more_keys)));
         report_unknown_keys(table, keys, context, diagnostics_);
-        return Model{text(own, "type"), tables_.read_plugin(table, *plugin, context)};
+        return read_parameters(table, plugin->schema, context, diagnostics_, plugin->manifest.relations);
     }
 
     void read_light(const TableNode& table, const SourceLocation& place, std::size_t index) {
-        const Label label = label_of("light", table, index);
-        const TableContext context{
-            fmt::format("[[light]] {}", short_text(label)), {Help::Topic::plugins_of_kind, "light"}, place};
-        const ParamSet own = read_parameters(table, own_tables().light.schema(), context, diagnostics_);
-        std::optional<Model> model = read_typed("light", PluginKind::light, table, own, context, {});
+        LightSource light{.label = label_of("light", table, index),
+                          .model = {},
+                          .place = place,
+                          .position_place = place_of(table, "position", place)};
+        const TableContext context{fmt::format("[[light]] {}", short_text(light.label)),
+                                   {Help::Topic::plugins_of_kind, "light"},
+                                   place};
+        const TableValues own = read_parameters(table, own_tables().light.schema(), context, diagnostics_);
+        own_tables().light.assign(&table, own.set, light);
+        auto values = read_typed("light", PluginKind::light, table, own.set, context, {});
         // Its position can be checked whatever else is wrong with it.
-        const Parameter* const position =
-            model ? parameter_named(model->parameters.schema(), "position") : nullptr;
-        if (model && (position == nullptr || is_valid(table, *position)))
-            scene_.lights.push_back({label, std::move(*model), place, place_of(table, "position", place)});
+        if (!values || !values->is_valid("position")) return;
+        light.model.parameters = std::move(values->set);
+        scene_.lights.push_back(std::move(light));
     }
 
     void read_object(const TableNode& table, const SourceLocation& place, std::size_t index,
@@ -225,30 +227,18 @@ class Reader {
         const TableContext context{fmt::format("[[object]] {}", short_text(object.label)),
                                    {Help::Topic::plugins_of_kind, "shape"},
                                    place};
-        const ParamSet own = read_parameters(table, own_tables().object.schema(), context, diagnostics_);
-        own_tables().object.assign(&table, own, object);
-        auto shape = read_typed("object", PluginKind::shape, table, own, context, {"material"});
+        const TableValues own = read_parameters(table, own_tables().object.schema(), context, diagnostics_);
+        own_tables().object.assign(&table, own.set, object);
+        auto shape = read_typed("object", PluginKind::shape, table, own.set, context, {"material"});
         object.shading = models.shading_for(table);
         object.reflection = models.reflection_for(table, short_text(object.label), place);
         if (!shape) return;
         // Its triangles can be checked whatever else is wrong with it.
-        if (diagnostics_.error_count() != errors && !has_known_triangles(table, *shape)) return;
-        object.shape = std::move(*shape);
+        const bool has_known_triangles = own.are_valid({"position", "rotation", "scale", "encloses"}) &&
+                                         shape->are_valid() && !shape->breaks_relation;
+        if (diagnostics_.error_count() != errors && !has_known_triangles) return;
+        object.shape.parameters = std::move(shape->set);
         scene_.objects.push_back(std::move(object));
-    }
-
-    /// Whether everything that determines an object's triangles is valid.
-    bool has_known_triangles(const TableNode& table, const Model& shape) {
-        const auto is_known = [&](const Parameter& p) { return is_valid(table, p); };
-        const auto& schema = schema_of("object").parameters;
-        const auto& relations = tables_.registry().require(PluginKind::shape, shape.name).manifest.relations;
-        return std::ranges::all_of(
-                   std::array{"position", "rotation", "scale", "encloses"},
-                   [&](std::string_view name) { return is_known(*parameter_named(schema, name)); }) &&
-               std::ranges::all_of(shape.parameters.schema(), is_known) &&
-               std::ranges::none_of(relations, [&](const Relation& relation) {
-                   return !relation.only_warns && validation_error(relation, shape.parameters);
-               });
     }
 
     void warn_if_empty() {

@@ -3,10 +3,7 @@ module;
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <initializer_list>
-#include <iterator>
 #include <map>
 #include <span>
 #include <string>
@@ -70,24 +67,15 @@ TableContext SceneTables::context_of(const std::string& name) const {
             .lists_keys = true};
 }
 
-ParamSet SceneTables::read_plain(const std::string& name, const SharedSchema& schema) {
+TableValues SceneTables::read_plain(const std::string& name, const SharedSchema& schema) {
     static const TableNode k_empty;
     const TableNode* const table = single(name);
     // A value that is not a table has been reported; don't report its missing keys as well.
-    if (table == nullptr && root_.find(name) != nullptr) return ParamSet(schema);
+    if (table == nullptr && root_.find(name) != nullptr)
+        return {.set = ParamSet(schema), .validity = std::vector<bool>(schema->size())};
     const TableContext context = context_of(name);
     if (table != nullptr) report_unknown_keys(*table, names_in(*schema), context, diagnostics_);
     return read_parameters(table != nullptr ? *table : k_empty, schema, context, diagnostics_);
-}
-
-bool SceneTables::has_valid(const std::string& name, std::initializer_list<std::string_view> keys) {
-    static const TableNode k_empty;
-    const TableNode* const table = single(name);
-    if (table == nullptr && root_.find(name) != nullptr) return false;
-    return std::ranges::all_of(keys, [&](std::string_view key) {
-        return is_valid(table != nullptr ? *table : k_empty,
-                        *parameter_named(schema_of(name).parameters, key));
-    });
 }
 
 const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, const SourceLocation& place) {
@@ -102,27 +90,6 @@ const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, c
         diagnostics_.error(place, problem.what(), "", problem.help());
     }
     return nullptr;
-}
-
-ParamSet SceneTables::read_plugin(const TableNode& table, const PluginFile& plugin,
-                                  const TableContext& context) {
-    const std::size_t before = diagnostics_.error_count();
-    ParamSet values = read_parameters(table, plugin.schema, context, diagnostics_);
-    if (diagnostics_.error_count() == before) {
-        check_relations(table, values, plugin.manifest.relations, context, diagnostics_);
-        return values;
-    }
-    // A rejected value leaves its default, which need not be consistent with the others.
-    std::vector<Relation> between_valid;
-    std::ranges::copy_if(
-        plugin.manifest.relations, std::back_inserter(between_valid), [&](const Relation& r) {
-            return std::ranges::all_of(std::array{&r.left, &r.right}, [&](const std::string* name) {
-                const Parameter* const p = parameter_named(*plugin.schema, *name);
-                return p != nullptr && is_valid(table, *p);
-            });
-        });
-    check_relations(table, values, between_valid, context, diagnostics_);
-    return values;
 }
 
 }  // namespace candela

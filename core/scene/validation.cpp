@@ -9,7 +9,7 @@ module;
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
+#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
@@ -252,8 +252,7 @@ std::optional<std::string> existing_file(const std::string& written, const Sourc
     return std::nullopt;
 }
 
-}  // namespace
-
+/// `node` as a value of the parameter's type, without checking its range. Reports a type mismatch.
 std::optional<Value> typed_value(const Node& node, const Parameter& parameter, Diagnostics& diagnostics) {
     auto value = as_value(node, parameter);
     if (!value) {
@@ -264,6 +263,28 @@ std::optional<Value> typed_value(const Node& node, const Parameter& parameter, D
     }
     return value;
 }
+
+/// Reports violated relations between valid values.
+void check_relations(const TableNode& table, TableValues& values, std::span<const Relation> relations,
+                     const TableContext& context, Diagnostics& diagnostics) {
+    for (const Relation& relation : relations) {
+        // A rejected value leaves its default, which need not be consistent with the others.
+        if (!values.are_valid({relation.left, relation.right})) continue;
+        const auto wrong = validation_error(relation, values.set);
+        if (!wrong) continue;
+        const TableNode::Entry* entry = table.find(relation.left);
+        if (entry == nullptr) entry = table.find(relation.right);
+        const SourceLocation place = entry != nullptr ? entry->node.place : context.place;
+        if (relation.only_warns) {
+            diagnostics.warning(place, fmt::format("{}: {}", context.where, *wrong));
+        } else {
+            diagnostics.error(place, fmt::format("{}: {}", context.where, *wrong));
+            values.breaks_relation = true;
+        }
+    }
+}
+
+}  // namespace
 
 std::optional<Value> valid_value(const Node& node, const Parameter& p, Diagnostics& diagnostics) {
     auto value = typed_value(node, p, diagnostics);
@@ -302,20 +323,27 @@ std::optional<Value> valid_value(const Node& node, const Parameter& p, Diagnosti
     return value;
 }
 
-bool is_valid(const TableNode& table, const Parameter& parameter) {
-    const TableNode::Entry* const entry = table.find(parameter.name);
-    if (entry == nullptr) return parameter.default_value.has_value();
-    Diagnostics ignored;
-    return valid_value(entry->node, parameter, ignored).has_value();
+bool TableValues::is_valid(std::string_view name) const {
+    const std::size_t index = set.index_of(name);
+    return index == validity.size() || validity[index];
 }
 
-ParamSet read_parameters(const TableNode& table, SharedSchema schema, const TableContext& context,
-                         Diagnostics& diagnostics) {
-    ParamSet values(std::move(schema));
-    for (std::size_t i = 0; i < values.schema().size(); ++i) {
-        const Parameter& p = values.schema()[i];
+bool TableValues::are_valid(std::initializer_list<std::string_view> names) const {
+    return std::ranges::all_of(names, [&](std::string_view name) { return is_valid(name); });
+}
+
+bool TableValues::are_valid() const {
+    return std::ranges::all_of(validity, [](bool is_valid) { return is_valid; });
+}
+
+TableValues read_parameters(const TableNode& table, SharedSchema schema, const TableContext& context,
+                            Diagnostics& diagnostics, std::span<const Relation> relations) {
+    TableValues values{.set = ParamSet(std::move(schema))};
+    for (std::size_t i = 0; i < values.set.schema().size(); ++i) {
+        const Parameter& p = values.set.schema()[i];
         const TableNode::Entry* const entry = table.find(p.name);
         if (entry == nullptr) {
+            values.validity.push_back(p.default_value.has_value());
             if (!p.default_value) {
                 diagnostics.error(
                     context.place,
@@ -325,16 +353,19 @@ ParamSet read_parameters(const TableNode& table, SharedSchema schema, const Tabl
             continue;
         }
         auto value = valid_value(entry->node, p, diagnostics);
-        if (!value) continue;
-        values.set(i, std::move(*value));
+        values.validity.push_back(value.has_value());
+        if (value) values.set.set(i, *std::move(value));
     }
+    check_relations(table, values, relations, context, diagnostics);
     return values;
 }
 
-ParamSet read_parameters(const TableNode& table, std::vector<Parameter> schema, const TableContext& context,
-                         Diagnostics& diagnostics) {
-    return read_parameters(table, std::make_shared<const std::vector<Parameter>>(std::move(schema)), context,
-                           diagnostics);
+TableValues read_parameters(const TableNode& table, const PluginFile& plugin, const TableContext& context,
+                            Diagnostics& diagnostics) {
+    std::vector<std::string> known;
+    for (const Parameter& p : *plugin.schema) known.push_back(p.name);
+    report_unknown_keys(table, known, context, diagnostics);
+    return read_parameters(table, plugin.schema, context, diagnostics, plugin.manifest.relations);
 }
 
 void report_unknown_keys(const TableNode& table, std::span<const std::string> known,
@@ -346,22 +377,6 @@ void report_unknown_keys(const TableNode& table, std::span<const std::string> kn
         const std::string meant = context.hint ? context.hint(entry.key) : "";
         diagnostics.error(entry.key_place, fmt::format("unknown key '{}' in {}", entry.key, context.where),
                           joined(meant.empty() ? suggestion(entry.key, known) : meant, note), context.help);
-    }
-}
-
-void check_relations(const TableNode& table, const ParamSet& values, std::span<const Relation> relations,
-                     const TableContext& context, Diagnostics& diagnostics) {
-    for (const Relation& relation : relations) {
-        const auto wrong = validation_error(relation, values);
-        if (!wrong) continue;
-        const TableNode::Entry* entry = table.find(relation.left);
-        if (entry == nullptr) entry = table.find(relation.right);
-        const SourceLocation place = entry != nullptr ? entry->node.place : context.place;
-        if (relation.only_warns) {
-            diagnostics.warning(place, fmt::format("{}: {}", context.where, *wrong));
-        } else {
-            diagnostics.error(place, fmt::format("{}: {}", context.where, *wrong));
-        }
     }
 }
 

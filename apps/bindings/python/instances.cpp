@@ -33,13 +33,8 @@ ParamSet values_from(SharedRegistry& shared, PluginKind kind, const std::string&
     const std::string id = plugin.manifest.id();
     const auto table = std::get<TableNode>(node_of(given, id).value);
     const TableContext context{.where = id, .help = {Help::Topic::plugin, id}, .place = {.file = id}};
-    std::vector<std::string> known;
-    for (const Parameter& parameter : *plugin.schema) known.push_back(parameter.name);
     Diagnostics diagnostics;
-    report_unknown_keys(table, known, context, diagnostics);
-    ParamSet values = read_parameters(table, plugin.schema, context, diagnostics);
-    if (!diagnostics.has_errors())
-        check_relations(table, values, plugin.manifest.relations, context, diagnostics);
+    ParamSet values = read_parameters(table, plugin, context, diagnostics).set;
     if (diagnostics.has_errors()) throw InvalidInput(InvalidInput::What::request, diagnostics);
     return values;
 }

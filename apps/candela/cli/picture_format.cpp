@@ -57,11 +57,7 @@ candela::PictureFormat picture_format_from(const CommandLine& line, const std::f
     const candela::PluginFile& plugin = registry.require(PluginKind::image, format.plugin);
     const std::string id = plugin.manifest.id();
     const candela::TableContext context{id, {candela::Help::Topic::plugin, id}, {}};
-    std::vector<std::string> known;
-    for (const candela::Parameter& parameter : plugin.manifest.parameters) known.push_back(parameter.name);
-    report_unknown_keys(table, known, context, diagnostics);
-    format.parameters = read_parameters(table, plugin.schema, context, diagnostics);
-    check_relations(table, format.parameters, plugin.manifest.relations, context, diagnostics);
+    format.parameters = read_parameters(table, plugin, context, diagnostics).set;
     if (diagnostics.has_errors()) throw usage_error(diagnostics);
     return format;
 }

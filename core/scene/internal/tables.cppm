@@ -1,7 +1,6 @@
 // Reads the tables of a scene in a common way.
 module;
 
-#include <initializer_list>
 #include <map>
 #include <set>
 #include <span>
@@ -49,21 +48,19 @@ class SceneTables {
     /// time.
     const TableNode* single(const std::string& name);
     TableContext context_of(const std::string& name) const;
-    /// Reads all keys of a table without a plugin into `to`.
+    /// Reads all keys of a table without a plugin into `to`. If it is not a table, none of them is valid.
     template <class T>
-    void read(const Table<T>& table, T& to) {
+    TableValues read(const Table<T>& table, T& to) {
         const std::string& name = table.about().name;
-        table.assign(single(name), read_plain(name, table.schema()), to);
+        TableValues values = read_plain(name, table.schema());
+        table.assign(single(name), values.set, to);
+        return values;
     }
-    /// Whether the table is valid as such, or missing, and all of these keys have valid values.
-    bool has_valid(const std::string& name, std::initializer_list<std::string_view> keys);
     /// The installed plugin of that name, or null, with a message at `place`.
     const PluginFile* known(PluginKind kind, const std::string& name, const SourceLocation& place);
-    /// A plugin's parameters, including the relations between them.
-    ParamSet read_plugin(const TableNode& table, const PluginFile& plugin, const TableContext& context);
 
   private:
-    ParamSet read_plain(const std::string& name, const SharedSchema& schema);
+    TableValues read_plain(const std::string& name, const SharedSchema& schema);
 
     const TableNode& root_;
     SourceLocation whole_;
