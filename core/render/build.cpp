@@ -128,14 +128,8 @@ class Compiler {
                 compiled_.lights.push_back(std::move(before_->compiled.lights[i]));
                 continue;
             }
-            guarded("light " + light.label.text(), light.place, [&] {
-                RenderLight source{
-                    .plugin = light.model.name,
-                    .light = made<Light>(light.model),
-                    .has_ambient = registry_.descriptor(PluginKind::light, light.model.name).has_ambient};
-                source.data = data_of(source);
-                compiled_.lights.push_back(std::move(source));
-            });
+            guarded("light " + light.label.text(), light.place,
+                    [&] { compiled_.lights.push_back(render_light(registry_, light.model, encoding())); });
         }
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
             const Object& object = scene_.objects[i];
@@ -149,20 +143,12 @@ class Compiler {
                 continue;
             }
             guarded("object " + object.label.text(), object.place, [&] {
-                solid.surface = {
-                    .color = decoded(object.color, encoding()),
-                    .color_texture_wrap = object.color_texture_wrap,
-                    .shading_plugin = object.shading.name,
-                    .shading = made<ShadingModel>(object.shading),
-                    .shading_needs =
-                        registry_.descriptor(PluginKind::shading, object.shading.name).shading_needs,
-                    .reflection_plugin = object.reflection.name,
-                    .reflection = made<ReflectionModel>(object.reflection),
-                    .reflection_needs =
-                        registry_.descriptor(PluginKind::reflection, object.reflection.name).surface_needs};
-                const ReflectionModel& model = *solid.surface.reflection;
-                solid.surface.all_lights_reflection = extension_of<AllLightsReflection>(model);
-                solid.surface.environment_reflection = extension_of<EnvironmentReflection>(model);
+                SurfaceModels surface;
+                surface.color = decoded(object.color, encoding());
+                surface.color_texture_wrap = object.color_texture_wrap;
+                surface.set_shading(registry_, object.shading, encoding());
+                surface.set_reflection(registry_, object.reflection, encoding());
+                solid.surface = std::move(surface);
             });
         }
     }

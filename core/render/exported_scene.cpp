@@ -145,10 +145,7 @@ class Exporter {
     const char* kept(std::string label) { return to_.labels.emplace_back(std::move(label)).c_str(); }
 
     void add(const LightSource& light) {
-        const RenderLight source{
-            .plugin = light.model.name,
-            .light = made<Light>(light.model.name, light.model.parameters),
-            .has_ambient = registry_.descriptor(PluginKind::light, light.model.name).has_ambient};
+        RenderLight source = render_light(registry_, light.model, scene_.image.color_management);
         std::vector<const char*> functions;
         if (source.light->sample_count() > 0) functions.push_back("illuminate");
         if (source.has_ambient) functions.push_back("illuminate_ambient");
@@ -157,12 +154,11 @@ class Exporter {
                               .model = put(to_.light_models, ExportedModel{&loaded}),
                               .values = to_.kept(loaded, light.model.parameters,
                                                  [&]() -> const Light* { return source.light.get(); })});
-        if (auto data = data_of(source)) {
-            ExportedLight& to = to_.lights.back();
-            to.ambient = data->ambient;
-            to.punctual = to_.punctual.emplace_back(std::move(data->samples));
-            to.is_data = true;
-        }
+        if (!source.data) return;
+        ExportedLight& to = to_.lights.back();
+        to.ambient = source.data->ambient;
+        to.punctual = to_.punctual.emplace_back(std::move(source.data->samples));
+        to.is_data = true;
     }
 
     void add_shading(const std::string& name, const ParamSet& values) {

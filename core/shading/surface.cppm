@@ -14,6 +14,7 @@ import :environment_map;
 import :texture;
 import candela.api;
 import candela.geometry;
+import candela.plugins;
 import candela.raster;
 import candela.scene;
 
@@ -25,7 +26,7 @@ struct LightData {
     Rgb ambient{};
 };
 
-/// A light, and the plugin it comes from.
+/// A light, and the plugin it comes from. See render_light().
 struct RenderLight {
     std::string plugin;
     std::unique_ptr<Light> light;
@@ -33,12 +34,11 @@ struct RenderLight {
     std::optional<LightData> data{};  // empty: only the light itself knows
 };
 
-/// Asks the light to describe itself. Throws Error, naming the plugin, if that fails; empty if the light does
-/// not offer it.
-CANDELA_EXPORT std::optional<LightData> data_of(const RenderLight& source);
+/// Creates the light, and asks it once whether it is data. Throws Error, naming the plugin.
+CANDELA_EXPORT RenderLight render_light(Registry& registry, const Model& model, ColorEncoding encoding);
 
 /// The appearance of an object's surface.
-struct SurfaceModels {
+struct CANDELA_EXPORT SurfaceModels {
     Rgb color;
     std::shared_ptr<const MipMap> color_texture{};  // multiplies the colour; null: none
     TextureWrap color_texture_wrap = TextureWrap::repeat;
@@ -51,6 +51,10 @@ struct SurfaceModels {
     // The extensions that `reflection` offers.
     const AllLightsReflection* all_lights_reflection = nullptr;
     const EnvironmentReflection* environment_reflection = nullptr;
+
+    /// Create the models, and ask them once what they need and offer. Throw Error, naming the plugin.
+    void set_shading(Registry& registry, const Model& model, ColorEncoding encoding);
+    void set_reflection(Registry& registry, const Model& model, ColorEncoding encoding);
 
     PointNeeds needs() const;
 };

@@ -124,21 +124,40 @@ std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
     return surface.environment_reflection != nullptr ? points.count : points.filled;
 }
 
+/// Empty if the light does not describe itself.
+std::optional<LightData> data_of(const Light& light, bool has_ambient) {
+    const int samples = light.sample_count();
+    const auto* const punctual = extension_of<PunctualSource>(light);
+    const auto* const ambient = extension_of<UniformAmbientSource>(light);
+    if ((samples > 0 && punctual == nullptr) || (has_ambient && ambient == nullptr)) return std::nullopt;
+    LightData data;
+    for (int sample = 0; sample < samples; ++sample) data.samples.push_back(punctual->as_punctual(sample));
+    if (has_ambient) data.ambient = ambient->as_ambient();
+    return data;
+}
+
 }  // namespace
 
-std::optional<LightData> data_of(const RenderLight& source) {
-    std::optional<LightData> data;
-    guarded(PluginKind::light, source.plugin, [&] {
-        const int samples = source.light->sample_count();
-        const auto* const punctual = extension_of<PunctualSource>(*source.light);
-        const auto* const ambient = extension_of<UniformAmbientSource>(*source.light);
-        if ((samples > 0 && punctual == nullptr) || (source.has_ambient && ambient == nullptr)) return;
-        data.emplace();
-        for (int sample = 0; sample < samples; ++sample)
-            data->samples.push_back(punctual->as_punctual(sample));
-        if (source.has_ambient) data->ambient = ambient->as_ambient();
-    });
-    return data;
+RenderLight render_light(Registry& registry, const Model& model, ColorEncoding encoding) {
+    RenderLight made{.plugin = model.name,
+                     .light = registry.create<Light>(model.name, model.parameters, encoding),
+                     .has_ambient = registry.descriptor(PluginKind::light, model.name).has_ambient};
+    guarded(PluginKind::light, made.plugin, [&] { made.data = data_of(*made.light, made.has_ambient); });
+    return made;
+}
+
+void SurfaceModels::set_shading(Registry& registry, const Model& model, ColorEncoding encoding) {
+    shading = registry.create<ShadingModel>(model.name, model.parameters, encoding);
+    shading_plugin = model.name;
+    shading_needs = registry.descriptor(PluginKind::shading, model.name).shading_needs;
+}
+
+void SurfaceModels::set_reflection(Registry& registry, const Model& model, ColorEncoding encoding) {
+    reflection = registry.create<ReflectionModel>(model.name, model.parameters, encoding);
+    reflection_plugin = model.name;
+    reflection_needs = registry.descriptor(PluginKind::reflection, model.name).surface_needs;
+    all_lights_reflection = extension_of<AllLightsReflection>(*reflection);
+    environment_reflection = extension_of<EnvironmentReflection>(*reflection);
 }
 
 PointNeeds SurfaceModels::needs() const {

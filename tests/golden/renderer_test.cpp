@@ -102,18 +102,19 @@ TEST_CASE(
 
         fixture.scene.objects[0].surface.color = {0.1f, 0.9f, 0.2f};
         fixture.require_same(renderer);
-        candela::ParamSet dimmer = fixture.source().lights[0].model.parameters;
-        dimmer.set("intensity", 3.0);
-        fixture.scene.lights[0].light =
-            test_registry().create<candela::Light>("point", dimmer, candela::ColorEncoding::srgb);
+        candela::Model dimmer = fixture.source().lights[0].model;
+        dimmer.parameters.set("intensity", 3.0);
+        fixture.scene.lights[0] =
+            candela::render_light(test_registry(), dimmer, candela::ColorEncoding::srgb);
         fixture.require_same(renderer);
-        fixture.scene.objects[2].surface.reflection = test_registry().create<candela::ReflectionModel>(
-            "half-lambert", test_registry().parameters(candela::PluginKind::reflection, "half-lambert"),
+        fixture.scene.objects[2].surface.set_reflection(
+            test_registry(),
+            {"half-lambert", test_registry().parameters(candela::PluginKind::reflection, "half-lambert")},
             candela::ColorEncoding::srgb);
         fixture.require_same(renderer);
         // Visibility does not depend on where light is evaluated either.
-        fixture.scene.objects[0].surface.shading = test_registry().create<candela::ShadingModel>(
-            "phong", test_registry().parameters(candela::PluginKind::shading, "phong"),
+        fixture.scene.objects[0].surface.set_shading(
+            test_registry(), {"phong", test_registry().parameters(candela::PluginKind::shading, "phong")},
             candela::ColorEncoding::srgb);
         fixture.require_same(renderer);
         const bool is_other = fixture.by(renderer) != first;

@@ -208,11 +208,11 @@ TEST_CASE("what a model reads is in its manifest, and what it offers is its clas
     CHECK(manifest(PluginKind::shading, "gouraud").shading_needs.default_vertex_normals);
     CHECK_FALSE(manifest(PluginKind::shading, "area-weighted").shading_needs.default_vertex_normals);
 
-    const auto offers = []<class Extension, class Interface>(std::string_view name) {
-        return candela::extension_of<Extension>(*instance<Interface>(name)) != nullptr;
+    const auto offers = []<class Extension, class Interface>(std::string_view name, Given given = {}) {
+        return candela::extension_of<Extension>(*instance<Interface>(name, given)) != nullptr;
     };
     using candela::Light, candela::ReflectionModel;
-    CHECK(offers.operator()<candela::PunctualSource, Light>("point"));
+    CHECK(offers.operator()<candela::PunctualSource, Light>("point", {{"position", candela::Vec3{}}}));
     CHECK_FALSE(offers.operator()<candela::PunctualSource, Light>("ambient"));
     CHECK(offers.operator()<candela::UniformAmbientSource, Light>("ambient"));
     CHECK_FALSE(offers.operator()<candela::UniformAmbientSource, Light>("hemisphere"));

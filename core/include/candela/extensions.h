@@ -1,4 +1,4 @@
-// What a light or a reflection model may offer in addition to its interface, each as a class with one
+// Extensions of Light and ReflectionModel: abilities that only some models have, each a class with one
 // function. The class that implements the interface also derives from that of the extension; the host asks
 // each instance once, with extension_of(). ScanlineImageFormat is such an extension of ImageFormat.
 #pragma once
@@ -16,7 +16,7 @@ namespace candela {
 
 /// The extension that the instance offers, or null. A part of the instance.
 template <class Extension>
-const Extension* extension_of(const Instance& instance) {
+constexpr const Extension* extension_of(const Instance& instance) {
     return dynamic_cast<const Extension*>(&instance);
 }
 
@@ -35,7 +35,7 @@ class CANDELA_EXPORT UniformAmbientSource {
   public:
     virtual ~UniformAmbientSource();
 
-    /// What illuminate_ambient() writes.
+    /// Returns the intensity that illuminate_ambient() writes.
     virtual Rgb as_ambient() const = 0;
 };
 

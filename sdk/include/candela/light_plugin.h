@@ -97,6 +97,9 @@ class LightParams {
     explicit LightParams(const Params& params) : params_(params) {}
 
   protected:
+    const Params& params() const noexcept { return params_; }
+
+  private:
     Params params_;
 };
 
@@ -111,7 +114,7 @@ template <class Params>
 class SampledLightParams<Params> : public LightParams<Params>, public PunctualSource {
   public:
     using LightParams<Params>::LightParams;
-    PunctualLight as_punctual(int sample) const override { return punctual(this->params_, sample); }
+    PunctualLight as_punctual(int sample) const override { return punctual(this->params(), sample); }
 };
 
 /// The parameters of an ambient light, which is data if there is a function `uniform_ambient`.
@@ -126,7 +129,7 @@ class AmbientLightParams<Params> : public LightParams<Params>, public UniformAmb
   public:
     using LightParams<Params>::LightParams;
     Rgb as_ambient() const override {
-        const vec3 same = uniform_ambient(this->params_);
+        const vec3 same = uniform_ambient(this->params());
         return {same.x, same.y, same.z};
     }
 };
@@ -140,7 +143,7 @@ class KernelLight : public Light, public SampledLightParams<Params> {
     explicit KernelLight(const Params& params) : SampledLightParams<Params>(params) {}
     int sample_count() const noexcept override { return 1; }
     void illuminate(int, const ReceiverBatch& receivers, const IncidentBatch& incident) const override {
-        multiversion<IlluminateLoop<Params, illuminate_>>(this->params_, receivers, incident);
+        multiversion<IlluminateLoop<Params, illuminate_>>(this->params(), receivers, incident);
     }
 };
 
@@ -152,10 +155,10 @@ class KernelSampledLight : public Light, public SampledLightParams<Params> {
         kernel_function<Params, sample_count_>("sample_count")};
 
     explicit KernelSampledLight(const Params& params) : SampledLightParams<Params>(params) {}
-    int sample_count() const noexcept override { return call<sample_count_>(this->params_); }
+    int sample_count() const noexcept override { return call<sample_count_>(this->params()); }
     void illuminate(int sample, const ReceiverBatch& receivers,
                     const IncidentBatch& incident) const override {
-        multiversion<IlluminateLoop<Params, illuminate_>>(this->params_, receivers, incident, sample);
+        multiversion<IlluminateLoop<Params, illuminate_>>(this->params(), receivers, incident, sample);
     }
 };
 
@@ -168,7 +171,7 @@ class KernelAmbientLight : public Light, public AmbientLightParams<Params> {
     explicit KernelAmbientLight(const Params& params) : AmbientLightParams<Params>(params) {}
     int sample_count() const noexcept override { return 0; }
     void illuminate_ambient(const ReceiverBatch& receivers, const Vec3Span& ambient) const override {
-        multiversion<IlluminateAmbientLoop<Params, illuminate_ambient_>>(this->params_, receivers, ambient);
+        multiversion<IlluminateAmbientLoop<Params, illuminate_ambient_>>(this->params(), receivers, ambient);
     }
 };
 

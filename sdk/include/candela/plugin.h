@@ -402,7 +402,7 @@ constexpr bool has_ambient() {
 /// Like needs_of(), for a shading model: whether it has its own vertex normals need not be declared.
 template <class Model>
 constexpr ShadingNeeds shading_needs() {
-    ShadingNeeds needs = needs_of<ShadingNeeds, Model>();
+    auto needs = needs_of<ShadingNeeds, Model>();
     needs.default_vertex_normals = requires {
         requires std::same_as<decltype(&Model::vertex_normals), decltype(&ShadingModel::vertex_normals)>;
     };

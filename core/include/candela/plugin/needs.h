@@ -1,5 +1,5 @@
-// What a model reads of the data that the host can provide at a point: the host computes nothing else for it.
-// A plugin declares it once, in its descriptor.
+// The data at a point that a model reads: the host computes nothing else for it. A plugin declares them once,
+// in its descriptor.
 #pragma once
 
 namespace candela {
