@@ -24,7 +24,7 @@ constexpr double k_white = 255;
 constexpr std::size_t k_region = 16;           // pixels each way
 constexpr std::size_t k_least_of_region = 64;  // values; the mean of fewer is mostly noise
 
-constexpr int k_causes = 5;  // as in Bias: gain, right, down, zoom, roll
+constexpr int k_causes = 4;  // as in Bias: gain, right, down, zoom
 using Causes = Eigen::Matrix<double, k_causes, 1>;
 
 /// Finds the causes c that minimise the differences d = effects . c, and their standard errors, which hold
@@ -80,7 +80,7 @@ Causes effects_on(const Expectation& expected, std::size_t i) {
     const double down = -static_cast<double>(expected.sensitivity.down[i]);
     Causes effects;
     effects << effect_of_gain(static_cast<double>(expected.levels[i]), expected.encoding), right, down,
-        right * x + down * y, down * x - right * y;
+        right * x + down * y;
     return effects;
 }
 
@@ -132,7 +132,7 @@ Bias bias_of(const Expectation& expected, const std::vector<std::uint8_t>& progr
     Fit fit;
     for_each_decided([&](std::size_t i, double difference) { fit.add(effects_on(expected, i), difference); });
     fit.solve();
-    Estimate* const estimates[k_causes] = {&bias.gain, &bias.right, &bias.down, &bias.zoom, &bias.roll};
+    Estimate* const estimates[k_causes] = {&bias.gain, &bias.right, &bias.down, &bias.zoom};
     for (int cause = 0; cause < k_causes; ++cause) *estimates[cause] = fit.estimate(cause);
 
     const auto columns = static_cast<std::size_t>(expected.width);

@@ -43,7 +43,6 @@ struct Bias {
     Estimate gain{};           // the program's intensities are Candela's times 1 + gain
     Estimate right{}, down{};  // displacement of its picture in pixels
     Estimate zoom{};           // enlargement of its picture: the factor minus 1
-    Estimate roll{};           // clockwise rotation of its picture in radians
 
     /// The mean remaining difference, in levels, of the 16 x 16 pixels where it is farthest from 0.
     Estimate region{};

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "candela/target/literals.h"
 #include "json/json.h"
@@ -103,10 +102,6 @@ std::vector<std::string> Verdict::problems(const Limits& limits) const {
         found.push_back(fmt::format("the picture is {} by {:.3g} %; the limit is {:.3g} %",
                                     bias.zoom.value > 0 ? "larger" : "smaller",
                                     100 * std::abs(bias.zoom.value), 100 * limits.distortion / radius));
-    if (is_beyond(bias.roll, limits.distortion / radius, limits))
-        found.push_back(fmt::format("the picture is rotated by {:.3g} degrees; the limit is {:.3g}",
-                                    bias.roll.value * 180 / std::numbers::pi,
-                                    limits.distortion / radius * 180 / std::numbers::pi));
     if (is_beyond(bias.region, limits.region, limits))
         found.push_back(
             fmt::format("the picture is {} by {:.3g} levels on average in the 16 x 16 pixels from x {}, y "
@@ -170,7 +165,7 @@ std::string json_of(const std::vector<Verdict>& verdicts, const Limits& limits) 
             one["shown"] = {{"pixels", v.bias.shown}, {"away_from_edges", v.bias.interior}};
             one["bias"] = {{"gain", json(v.bias.gain)}, {"right", json(v.bias.right)},
                            {"down", json(v.bias.down)}, {"zoom", json(v.bias.zoom)},
-                           {"roll", json(v.bias.roll)}, {"region", json(v.bias.region)}};
+                           {"region", json(v.bias.region)}};
             one["bias"]["region"]["at"] = {v.bias.region_x, v.bias.region_y};
         }
         all.push_back(std::move(one));

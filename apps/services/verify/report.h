@@ -18,7 +18,7 @@ struct Limits {
     // For the values in Bias:
     double gain = 0.0005;
     double displacement = 1.0 / 32;  // pixels
-    double distortion = 1.0 / 16;    // pixels by which zoom or roll may displace the border
+    double distortion = 1.0 / 16;    // pixels by which zoom may displace the border
     double region = 0.15;            // levels
     double deviations = 5;           // standard errors within which any value may be noise
     // A verdict needs this many pixels away from edges, and this share of those above the background:
