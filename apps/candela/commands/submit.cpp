@@ -1,5 +1,4 @@
 // candela submit: distributes tasks over any number of processes, on one machine or many.
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,6 +20,7 @@
 #include "files/output_folder.h"
 #include "files/owned_files.h"
 #include "jobs/engines.h"
+#include "jobs/heartbeat.h"
 #include "jobs/plan.h"
 #include "jobs/state.h"
 #include "programs/shell_words.h"
@@ -203,7 +203,7 @@ int run_submit(const std::vector<std::string>& arguments) {
     job->queue_options = line.all("slurm");
     job->plan.directory = fs::current_path();
     job->plan.engine = line.get<std::string>("engine");
-    job->plan.submitted = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+    job->plan.submitted = date_text(std::time(nullptr));
     require_plain_words(*job);
     if (engine == Engine::slurm) require_folder_for_slurm(*job);
     if (engine == Engine::print) require_printable_lines(*job);

@@ -1,6 +1,5 @@
 #include "console/diagnostics_text.h"
 
-#include <fmt/color.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "console/terminal.h"
 #include "import/import.h"
 #include "json/json.h"
 
@@ -139,10 +139,6 @@ std::string full_hint(const Diagnostic& diagnostic, const HelpWords& words) {
 
 std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_color, std::size_t most,
                              Shown shown, const HelpWords& words) {
-    const auto styled = [&](const fmt::text_style& style, std::string_view text) {
-        return fmt::format(in_color ? style : fmt::text_style(), "{}", text);
-    };
-    const fmt::text_style bold = fmt::emphasis::bold;
     std::string result;
     std::vector<Diagnostic> all = diagnostics.sorted();
     if (shown == Shown::errors)
@@ -150,17 +146,16 @@ std::string diagnostics_text(const candela::Diagnostics& diagnostics, bool in_co
     for (std::size_t i = 0; i < std::min(most, all.size()); ++i) {
         Diagnostic& d = all[i];
         d.place = visible(std::move(d.place));
-        const auto color =
-            d.severity == Severity::error ? fmt::terminal_color::red : fmt::terminal_color::magenta;
-        result += fmt::format("{}{} {} {}\n", styled(bold, sentence(location(d.place))),
+        const std::string_view style = d.severity == Severity::error ? k_bold_red : k_bold_magenta;
+        result += fmt::format("{}{} {} {}\n", styled(k_bold, sentence(location(d.place)), in_color),
                               d.place.file.empty() ? "" : ":",
-                              styled(bold | fmt::fg(color), fmt::format("{}:", word(d.severity))),
-                              styled(bold, sentence(full_message(d.message, d.help, words))));
+                              styled(style, fmt::format("{}:", word(d.severity)), in_color),
+                              styled(k_bold, sentence(full_message(d.message, d.help, words)), in_color));
         const std::string hint = sentence(full_hint(d, words));
         if (const auto line = diagnostics.source_line(d.place)) {
             const auto [text, marks] = excerpt(*line, d.place);
             result += fmt::format("{:5} | {}\n{:5} | {}", d.place.line, text, "",
-                                  styled(bold | fmt::fg(fmt::terminal_color::green), marks));
+                                  styled(k_bold_green, marks, in_color));
             result += hint.empty() ? "\n" : fmt::format(" {}\n", hint);
         } else if (!hint.empty()) {
             result += fmt::format("      {}\n", hint);

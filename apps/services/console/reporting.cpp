@@ -1,6 +1,5 @@
 #include "console/reporting.h"
 
-#include <fmt/color.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -44,10 +43,8 @@ void say(const std::string& text) {
 }
 
 int fail(ExitCode code, const std::string& message) {
-    const fmt::text_style bold_red = fmt::emphasis::bold | fmt::fg(fmt::terminal_color::red);
-    print_styled(fmt::format(
-        "{} {}\n", fmt::format(stderr_takes_color() ? bold_red : fmt::text_style(), "candela: error:"),
-        candela::printable(message, candela::LineBreaks::kept)));
+    print_styled(fmt::format("{} {}\n", styled(k_bold_red, "candela: error:", stderr_takes_color()),
+                             candela::printable(message, candela::LineBreaks::kept)));
     return static_cast<int>(code);
 }
 

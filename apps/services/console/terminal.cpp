@@ -31,6 +31,10 @@ bool stderr_takes_color() {
            (term == nullptr || std::string(term) != "dumb");
 }
 
+std::string styled(std::string_view style, std::string_view text, bool in_color) {
+    return in_color ? fmt::format("{}{}\x1b[0m", style, text) : std::string(text);
+}
+
 bool can_ask() { return is_terminal(STDIN_FILENO) && is_terminal(STDERR_FILENO); }
 
 bool ask(const std::string& question) {

@@ -8,10 +8,18 @@
 #include <functional>
 #include <mutex>
 #include <string>
+#include <string_view>
 #include <thread>
 
 /// Whether stderr may be coloured: it is a terminal, and NO_COLOR is not set.
 bool stderr_takes_color();
+
+/// Codes that change how a terminal shows text. (<fmt/color.h> takes a second to compile in each file.)
+inline constexpr std::string_view k_bold = "\x1b[1m", k_bold_red = "\x1b[1m\x1b[31m",
+                                  k_bold_green = "\x1b[1m\x1b[32m", k_bold_magenta = "\x1b[1m\x1b[35m";
+
+/// The text between a style's code and that of the usual style; the text alone if not `in_color`.
+std::string styled(std::string_view style, std::string_view text, bool in_color);
 
 /// Whether the user can be asked: both stdin and stderr are terminals.
 bool can_ask();

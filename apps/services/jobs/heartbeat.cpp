@@ -1,7 +1,6 @@
 #include "jobs/heartbeat.h"
 
 #include <fcntl.h>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -71,8 +70,7 @@ std::optional<double> last_sign_of_life(const fs::path& file) {
 
 std::string as_date(double time) {
     constexpr double k_end_of_9999 = 253402300799.0;  // files may be dated later
-    return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}",
-                       fmt::gmtime(static_cast<std::time_t>(std::clamp(time, 0.0, k_end_of_9999))));
+    return date_text(static_cast<std::time_t>(std::clamp(time, 0.0, k_end_of_9999)));
 }
 
 /// When a process was started, in the kernel's clock ticks; nothing if it does not exist or is a zombie.
@@ -194,6 +192,13 @@ class Journal {
 };
 
 }  // namespace
+
+std::string date_text(std::time_t time) {
+    std::tm parts{};
+    ::gmtime_r(&time, &parts);
+    std::array<char, 32> text{};
+    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
+}
 
 std::optional<JournalEntry> read_journal(const fs::path& file) {
     const auto text = read_owned_file(file, k_largest_journal);

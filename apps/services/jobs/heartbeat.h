@@ -1,6 +1,7 @@
 // The journal of a job's task, for others to read: whether it runs, where, and why it failed.
 #pragma once
 
+#include <ctime>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -20,6 +21,9 @@ struct JournalEntry {
     double seconds = 0;  // duration, or time until its last sign of life
     std::string why;     // why it failed
 };
+
+/// "2026-02-28T13:05:09Z": UTC, as in ISO 8601.
+std::string date_text(std::time_t time);
 
 /// Nothing if there is no readable journal. A process on this machine is lost if it no longer exists; one on
 /// another machine, if it has given no sign of life for a minute.

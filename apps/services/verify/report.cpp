@@ -163,8 +163,10 @@ std::string json_of(const std::vector<Verdict>& verdicts, const Limits& limits) 
         if (v.failure.empty()) {
             one["comparison"] = parse_json(to_json(v.comparison));
             one["shown"] = {{"pixels", v.bias.shown}, {"away_from_edges", v.bias.interior}};
-            one["bias"] = {{"gain", json(v.bias.gain)}, {"right", json(v.bias.right)},
-                           {"down", json(v.bias.down)}, {"zoom", json(v.bias.zoom)},
+            one["bias"] = {{"gain", json(v.bias.gain)},
+                           {"right", json(v.bias.right)},
+                           {"down", json(v.bias.down)},
+                           {"zoom", json(v.bias.zoom)},
                            {"region", json(v.bias.region)}};
             one["bias"]["region"]["at"] = {v.bias.region_x, v.bias.region_y};
         }
