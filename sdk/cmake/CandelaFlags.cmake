@@ -25,8 +25,8 @@ if(CANDELA_SANITIZE)
     endif()
 endif()
 
-# For code that is not run for each fragment: optimising the sanitizers' code takes longer than running it unoptimised.
-set(CANDELA_COLD_CODE_OPTIONS)
+# For code that is not run for each fragment, vertex or byte. Optimising the sanitizers' code takes longer than running it unoptimised.
+set(CANDELA_COLD_CODE_OPTIONS $<$<CONFIG:Release>:-O1>)
 if(CANDELA_SANITIZE AND NOT CANDELA_SANITIZE MATCHES fuzzer)
     set(CANDELA_COLD_CODE_OPTIONS -O0)
 endif()
@@ -52,7 +52,7 @@ if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_CXX_COMPILER_ID STREQUAL Clang AN
 endif()
 
 # candela_add_headers(<name> HEADERS <header>... LIBRARIES <target>... [OPTIONS <option>...]): headers that are parsed once, and
-# compiled with their instantiations, for all programs that candela_use_headers() gives them to.
+# compiled with their instantiations, for all targets that candela_use_headers() gives them to.
 function(candela_add_headers name)
     cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "HEADERS;LIBRARIES;OPTIONS")
     set(empty ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
@@ -65,25 +65,20 @@ function(candela_add_headers name)
     # <cstdint> first, as in the core: what libstdc++ 14's <memory> means by uintptr_t depends on what was included before, and clang
     # compares its functions with those that come with modules.
     target_precompile_headers(${name} PRIVATE <cstdint> ${ARG_HEADERS})
-    candela_compile_as_program(${name})
     set_target_properties(${name} PROPERTIES CANDELA_HEADER_OPTIONS "${ARG_OPTIONS}")
 endfunction()
 
-# candela_use_headers(<name> <target>...): the targets are programs, or libraries that only programs are linked to.
+# candela_use_headers(<name> <target>...)
 function(candela_use_headers name)
     get_target_property(options ${name} CANDELA_HEADER_OPTIONS)
     foreach(target IN LISTS ARGN)
         target_compile_options(${target} PRIVATE ${options})
         target_precompile_headers(${target} REUSE_FROM ${name})
         get_target_property(type ${target} TYPE)
-        if(NOT type STREQUAL EXECUTABLE)
-            candela_compile_as_program(${target})
+        if(type STREQUAL EXECUTABLE)
+            # A precompiled header fits only one kind of position-independent code: that of libraries.
+            set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+            target_compile_options(${target} PRIVATE -fPIC)
         endif()
     endforeach()
-endfunction()
-
-# A precompiled header fits only one kind of position-independent code.
-function(candela_compile_as_program target)
-    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-    target_compile_options(${target} PRIVATE -fPIE)
 endfunction()
