@@ -79,7 +79,7 @@ wheel_backend() {
 # f3d and its display, and VTK's library, whose package has VTK's version in its name.
 programs() {
   [ "$programs" = yes ] || return 0
-  echo f3d xauth xdotool
+  echo f3d xauth
   { LC_ALL=C apt-cache depends libvtk9-dev 2>/dev/null || true; } | sed -nE 's/^ *Depends: (libvtk9\.[0-9]+(t64)?)$/\1/p'
 }
 

@@ -7,24 +7,8 @@ takes ten times as long. Each time is the least of its rounds, in which the size
 import argparse
 import json
 import math
-import pathlib
 
-import bench
-
-HEAD = """version = 1
-observer = { position = [0.0, 0.6, 3.4], look_at = [0.0, 0.0, 0.0] }
-"""
-
-
-def lights(count):
-    """Around the observer, together as bright as one."""
-    angles = (2 * math.pi * i / count for i in range(count))
-    return "".join(f'[[light]]\ntype = "point"\nposition = [{3 * math.sin(a):.4f}, 2.5, {3 * math.cos(a):.4f}]\n'
-                   f"intensity = {14 / count:.6f}\n" for a in angles)
-
-
-def sphere(triangles):
-    return f'[[object]]\ntype = "sphere"\nradius = 1.0\nsegments = {2 * round(math.sqrt(triangles) / 2)}\n'
+from harness import Bench, folders, lights, run, sphere, written
 
 
 def cubes(count):
@@ -39,7 +23,7 @@ def cubes(count):
 
 class Growth:
     def __init__(self, build, out, rounds):
-        self.bench = bench.Bench(build, out)
+        self.bench = Bench(build, out)
         self.out = out
         self.rounds = rounds
 
@@ -51,15 +35,10 @@ class Growth:
         return [self.bench.candela, "render", scene, "--defaults", "--quiet", "--width", width, "--height", height, "-o",
                 self.bench.pictures / "picture.png"]
 
-    def scene(self, name, *parts):
-        file = self.out / f"{name}.toml"
-        file.write_text(HEAD + "".join(parts))
-        return file
-
     def milliseconds(self, words):
         if "render" in words:
             return {"whole": self.bench.whole(words)}
-        figures = json.loads(bench.run(words, env=self.bench.env))
+        figures = json.loads(run(words, env=self.bench.env))
         return {"make": figures["read_ms"] + figures["meshes_ms"], "frame": figures["frame_ms"]}
 
     def measured(self, what, sizes, words_for):
@@ -95,28 +74,25 @@ def markdown(rows):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--rounds", type=int, default=3)
-    arguments = parser.parse_args()
-    out = arguments.out.resolve()
-    out.mkdir(parents=True, exist_ok=True)
-    growth = Growth(arguments.build.resolve(), out, arguments.rounds)
+    arguments = folders(parser, "build", "out")
+    out = arguments.out
+    growth = Growth(arguments.build, out, arguments.rounds)
     part = 100 if arguments.quick else 1
 
     def triangles(count):
-        return growth.frames(growth.scene("triangles", lights(1), sphere(count)), 1920, 1080)
+        return growth.frames(written(out, "triangles", lights(1), sphere(count)), 1920, 1080)
 
     def objects(count):
-        return growth.frames(growth.scene("objects", lights(1), cubes(count)), 1920, 1080)
+        return growth.frames(written(out, "objects", lights(1), cubes(count)), 1920, 1080)
 
     def many_lights(count):
-        return growth.frames(growth.scene("lights", lights(count), sphere(8000)), 512, 512)
+        return growth.frames(written(out, "lights", lights(count), sphere(8000)), 512, 512)
 
     def pixels(count):
         side = round(math.sqrt(count))
-        return growth.picture(growth.scene("pixels", lights(1), sphere(8000)), side, side)
+        return growth.picture(written(out, "pixels", lights(1), sphere(8000)), side, side)
 
     rows = [*growth.measured("triangles", [10**p // part for p in (5, 6, 7)], triangles),
             *growth.measured("objects", [10**p // part for p in (3, 4, 5)], objects),

@@ -10,7 +10,8 @@ import shutil
 import subprocess
 import sys
 
-from bench import Bench, asked_for, cells, processor, ratio, run, spread, write
+from bench import asked_for, cells
+from harness import Bench, processor, ratio, run, spread, write
 from pov import pov
 
 START_UP = ("A", 16, 16)  # too few pixels to matter

@@ -5,27 +5,10 @@ Writes OUT/sweep.json and OUT/sweep.md. --quick: small pictures and few frames, 
 import argparse
 import itertools
 import json
-import math
 import os
-import pathlib
-import subprocess
 import sys
 
-HERE = pathlib.Path(__file__).resolve().parent
-
-HEAD = """version = 1
-observer = { position = [0.0, 0.6, 3.4], look_at = [0.0, 0.0, 0.0] }
-"""
-
-
-def light(i, count):
-    angle = 2 * math.pi * i / count
-    return (f'[[light]]\ntype = "point"\nposition = [{3 * math.sin(angle):.4f}, 2.5, {3 * math.cos(angle):.4f}]\n'
-            f"intensity = {14 / count:.4f}\n")
-
-
-def sphere(segments):
-    return f'[[object]]\ntype = "sphere"\nradius = 1.0\nsegments = {segments}\ncolor = [90, 170, 220]\n'
+from harness import HERE, figures, folders, lights, run, sphere, written
 
 
 class Sweep:
@@ -37,22 +20,11 @@ class Sweep:
         self.small = (160, 90) if quick else (512, 512)
 
     def figures(self, scene, *more, size=None, frames=None, **environment):
-        width, height = size or self.size
-        words = [self.candela, "bench", scene, "--width", width, "--height", height, "--frames", frames or self.frames,
-                 "--warm-up", 2, "--json", "--defaults", *more]
-        text = subprocess.run([str(w) for w in words], check=True, capture_output=True, text=True,
-                              env={**os.environ, **environment}).stdout
-        return json.loads(text)
-
-    def scene(self, name, *parts):
-        file = self.out / name
-        file.write_text(HEAD + "".join(parts))
-        return file
+        return figures(self.candela, scene, *(size or self.size), frames or self.frames, "--warm-up", 2, "--defaults", *more,
+                       env={**os.environ, **environment})
 
     def names(self, kind):
-        listed = json.loads(subprocess.run([str(self.candela), "list", kind, "--json"], check=True, capture_output=True,
-                                           text=True).stdout)
-        return [plugin["name"] for plugin in listed]
+        return [plugin["name"] for plugin in json.loads(run([self.candela, "list", kind, "--json"]))]
 
     def processors(self):
         """Threads and instruction sets."""
@@ -67,21 +39,20 @@ class Sweep:
     def models(self):
         """Every shading model with every reflection model, under 1, 8 and 64 lights."""
         rows = []
-        for lights in (1, 8, 64):
-            scene = self.scene(f"lights-{lights}.toml", *(light(i, lights) for i in range(lights)), sphere(64))
+        for count in (1, 8, 64):
+            scene = written(self.out, f"lights-{count}", lights(count), sphere(4096))
             for shading, reflection in itertools.product(self.names("shading"), self.names("reflection")):
-                figures = self.figures(scene, "--shading", shading, "--reflection", reflection, size=self.small, frames=11)
-                rows.append({"lights": lights, "shading": shading, "reflection": reflection, "frame_ms": figures["frame_ms"]})
-            print(f"sweep: {lights} light(s) done", file=sys.stderr)
+                found = self.figures(scene, "--shading", shading, "--reflection", reflection, size=self.small, frames=11)
+                rows.append({"lights": count, "shading": shading, "reflection": reflection, "frame_ms": found["frame_ms"]})
+            print(f"sweep: {count} light(s) done", file=sys.stderr)
         return rows
 
     def triangles(self):
         """A sphere of a thousand to ten million triangles."""
         rows = []
         for power in range(3, 8):
-            segments = 2 * round(math.sqrt(10**power) / 2)
-            figures = self.figures(self.scene(f"triangles-{power}.toml", light(0, 1), sphere(segments)))
-            rows.append({key: figures[key] for key in ("triangles", "meshes_ms", "projection_ms", "tiles_ms", "frame_ms")})
+            found = self.figures(written(self.out, f"triangles-{power}", lights(1), sphere(10**power)))
+            rows.append({key: found[key] for key in ("triangles", "meshes_ms", "projection_ms", "tiles_ms", "frame_ms")})
         return rows
 
 
@@ -113,13 +84,10 @@ def markdown(found):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("build", type=pathlib.Path)
-    parser.add_argument("out", type=pathlib.Path)
     parser.add_argument("--quick", action="store_true")
-    arguments = parser.parse_args()
-    out = arguments.out.resolve()
-    out.mkdir(parents=True, exist_ok=True)
-    sweep = Sweep(arguments.build.resolve(), out, arguments.quick)
+    arguments = folders(parser, "build", "out")
+    out = arguments.out
+    sweep = Sweep(arguments.build, out, arguments.quick)
     found = {"processors": sweep.processors(), "triangles": sweep.triangles(), "models": sweep.models()}
     (out / "sweep.json").write_text(json.dumps(found, indent=2) + "\n")
     text = markdown(found)

@@ -4,22 +4,17 @@ tests/bench/scenes, and two that textures fill.
 textures.py <build folder> <work folder> [--frames N] [--rounds N] [--threads N]
 """
 import argparse
-import json
-import pathlib
 import random
 import re
-import statistics
-import subprocess
+
+from harness import HERE, figures, folders, ratio
 
 parser = argparse.ArgumentParser()
-parser.add_argument("build", type=pathlib.Path)
-parser.add_argument("work", type=pathlib.Path)
 parser.add_argument("--frames", type=int, default=30)
 parser.add_argument("--rounds", type=int, default=7)
 parser.add_argument("--threads", type=int, default=0)
-arguments = parser.parse_args()
-command = arguments.build.resolve() / "bin" / "candela"
-arguments.work.mkdir(parents=True, exist_ok=True)
+arguments = folders(parser, "build", "work")
+command = arguments.build / "bin/candela"
 
 HEAD = """version = 1
 [observer]
@@ -67,8 +62,7 @@ rotation = [90.0, 0.0, 0.0]
 
 
 def median_ms(scene):
-    words = [command, "bench", scene, "--width", "1920", "--height", "1080", "--frames", str(arguments.frames), "--threads", str(arguments.threads), "--json", "--quiet"]
-    return json.loads(subprocess.run(words, cwd=arguments.work, check=True, capture_output=True).stdout)["frame_ms"]
+    return figures(command, scene, 1920, 1080, arguments.frames, "--threads", arguments.threads, "--quiet", cwd=arguments.work)["frame_ms"]
 
 
 size = 4096
@@ -87,12 +81,12 @@ def compare(name, plain, textured):
     for _ in range(arguments.rounds):
         plain_ms, textured_ms = median_ms("plain.toml"), median_ms("textured.toml")
         ratios.append(textured_ms / plain_ms)
-    print(f"{name:15} textured / plain: median {statistics.median(ratios):.2f} "
-          f"({min(ratios):.2f} to {max(ratios):.2f}; the last {textured_ms:.2f} and {plain_ms:.2f} ms)", flush=True)
+    print(f"{name:15} textured / plain: median {ratio(ratios, 2)} "
+          f"(the last {textured_ms:.2f} and {plain_ms:.2f} ms)", flush=True)
 
 
 TEXTURE = 'color_texture = "texture.ppm"'
-for file in sorted(pathlib.Path(__file__).with_name("scenes").glob("*.toml")):
+for file in sorted((HERE / "scenes").glob("*.toml")):
     tables = re.split(r"(?m)^(?=\[)", file.read_text())
     compare(file.stem, "".join(tables), "".join(f"{t.rstrip()}\n{TEXTURE}\n" if t.startswith("[[object]]") else t for t in tables))
 for name, objects in SCENES.items():

@@ -1,9 +1,9 @@
-"""third_party.py BUILD SCRATCH [--instructions | --loops | --rounds 7] [--compiler g++]: plugins of a third party against the shipped ones.
+"""third_party.py BUILD SCRATCH [--instructions | --rounds 7] [--compiler g++]: plugins of a third party against the shipped ones.
 
 Makes a project for each of point light, Phong's reflection model and Phong's shading as `candela plugin new` does, puts the
 formulas of the shipped plugins into it, builds it against an installation and nothing else, and renders scene AR with
 both. --instructions: counts them with callgrind, and fails if a third party's plugins take 5 % more (the machine does not
-matter). --loops: only the loops of reflection models, with each instruction set. Otherwise times frames in turns."""
+matter). Otherwise times frames in turns."""
 
 import argparse
 import os
@@ -14,12 +14,11 @@ import statistics
 import subprocess
 import sys
 
-from bench import HERE, Bench
+from harness import HERE, Bench, ratio as with_range
 from instructions import instructions
 
 ALLOWED = 1.05
 PLUGINS = (("light", "point"), ("reflection", "phong"), ("shading", "phong"))
-LOOPS = ("lambert", "oren-nayar", "phong", "blinn-phong", "cook-torrance", "ggx", "gooch")
 SHIPPED = HERE.parent.parent / "plugins"
 
 
@@ -41,11 +40,11 @@ def compiler_of(build):
     return re.search(r'set\(CMAKE_CXX_COMPILER "([^"]+)"\)', found.read_text()).group(1)
 
 
-def build_plugins(prefix, scratch, compiler, wanted):
+def build_plugins(prefix, scratch, compiler):
     """The folder of the third party's plugins."""
     plugins = scratch / "plugins"
     plugins.mkdir(mode=0o755)
-    for kind, name in wanted:
+    for kind, name in PLUGINS:
         project = scratch / f"{kind}-{name}"
         quiet(prefix / "bin/candela", "plugin", "new", kind, name, project)
         for file in (f"{name}.cpp", f"{name}.kernel"):
@@ -66,8 +65,7 @@ def ratio_of_frames(bench, theirs, rounds):
             bench.env = {**os.environ, "CANDELA_PLUGIN_PATH": path}
             frames[whose], _ = bench.ours("AR", 1920, 1080, 30)
         ratios.append(frames["third party"] / frames["shipped"])
-    print(f"frames of AR at 1920 x 1080, third party / shipped: {statistics.median(ratios):.3f} "
-          f"({min(ratios):.3f} to {max(ratios):.3f}, {rounds} rounds)")
+    print(f"frames of AR at 1920 x 1080, third party / shipped: {with_range(ratios)}, {rounds} rounds")
     return statistics.median(ratios)
 
 
@@ -84,22 +82,17 @@ def main():
     parser.add_argument("build", type=pathlib.Path)
     parser.add_argument("scratch", type=pathlib.Path)
     parser.add_argument("--instructions", action="store_true")
-    parser.add_argument("--loops", action="store_true")
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--compiler", help="another compiler than Candela's")
     arguments = parser.parse_args()
     build, scratch = arguments.build.resolve(), arguments.scratch.resolve()
     prefix = install(build, scratch)
-    wanted = [("reflection", name) for name in LOOPS] if arguments.loops else PLUGINS
-    theirs = build_plugins(prefix, scratch, arguments.compiler or compiler_of(build), wanted)
+    theirs = build_plugins(prefix, scratch, arguments.compiler or compiler_of(build))
     command = prefix / "bin/candela"
-    for kind, name in wanted:
+    for kind, name in PLUGINS:
         described = quiet("env", f"CANDELA_PLUGIN_PATH={theirs}", command, "describe", f"{kind}/{name}")
         if str(theirs) not in described:
             sys.exit(f"{kind}/{name} is not the third party's:\n{described}")
-    if arguments.loops:
-        print(quiet(build / "tests/bench/candela_kernel_loops", theirs, prefix / "lib/candela/plugins", *LOOPS), end="")
-        return 0
     if arguments.instructions:
         ratio = ratio_of_instructions(command, theirs)
     else:
