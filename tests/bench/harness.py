@@ -1,4 +1,4 @@
-"""What the benchmarks share: running and timing programs, statistics, and scenes."""
+"""Runs and times programs, makes scenes, and sums up figures, for all benchmarks."""
 import ctypes
 import json
 import math
@@ -44,7 +44,7 @@ def run(words, **more):
 
 
 def figures(candela, scene, width, height, frames, *more, **where):
-    """What `candela bench` measures."""
+    """Returns what `candela bench` measures."""
     return json.loads(run([candela, "bench", scene, "--width", width, "--height", height, "--frames", frames, "--json", *more], **where))
 
 
