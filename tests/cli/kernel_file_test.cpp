@@ -1,0 +1,206 @@
+// Kernel files in the place of models' names: in scenes, on the command line, and in every command.
+#include <catch2/catch_test_macros.hpp>
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/box_scene.h"
+#include "support/command.h"
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+namespace {
+
+/// Lambert's law under another name, with half of its diffuse coefficient.
+constexpr const char* k_half = R"(/// # Half
+/// Half of Lambert's light.
+///
+/// $$ I_d = \frac{k_d}{2} C_o I_L \max(N \cdot L, 0) $$
+struct HalfMaterial {
+    vec3 ka;  /// = 0.1 [0, 1]: how much ambient light is reflected
+    vec3 kd;  /// = 0.35 [0, 1]: twice the share of light that is reflected
+};
+
+KERNEL vec3 half_reflect_ambient(HalfMaterial m, Surface s) {
+    return m.ka * s.color;
+}
+
+KERNEL Reflected half_reflect(HalfMaterial m, Surface s, vec3 to_light) {
+    return Reflected(m.kd * s.color * max(dot(s.normal, to_light), 0.0f), vec3(0.0f));
+}
+)";
+
+constexpr const char* k_lamp = R"(struct LampLight {
+    vec3 position;  /// point in m: where it is
+};
+
+KERNEL Incident lamp_illuminate(LampLight light, Receiver r) {
+    return point_source(light.position, vec3(1.0f), 1.0f, 2, 0.0f, r);
+}
+)";
+
+struct Workspace {
+    Workspace() : directory(scratch_directory()) {
+        write_file(directory / "half.kernel", k_half);
+        write_file(directory / "lamp.kernel", k_lamp);
+        write_file(directory / "scene.toml", scene("reflection = \"half.kernel\"", "point"));
+    }
+
+    static std::string scene(const std::string& reflection, const std::string& light) {
+        return "version = 1\n[image]\nwidth = 40\nheight = 30\n[observer]\nposition = [0, 0, 4]\nlook_at = "
+               "[0, 0, 0]\n"
+               "[[light]]\ntype = \"" +
+               light +
+               "\"\nposition = [2, 2, 3]\n[[object]]\ntype = \"sphere\"\nname = \"ball\"\nshading = "
+               "\"flat\"\n" +
+               reflection + "\n";
+    }
+
+    CommandResult candela(const Words& words, const std::string& path = "") const {
+        // One cache for all tests: the kernels are the same.
+        CommandSetup setup{
+            .input = "",
+            .environment = {{"XDG_CACHE_HOME", (directory.parent_path() / "kernel_cache").string()}},
+            .directory = directory};
+        if (!path.empty()) setup.environment.emplace_back("PATH", path);
+        return run_candela(words, setup);
+    }
+    std::string picture(const Words& words) const {
+        Words all = words;
+        all.insert(all.end(), {"-o", "picture.ppm"});
+        fs::remove(directory / "picture.ppm");
+        const CommandResult result = candela(all);
+        INFO(result.err);
+        REQUIRE(result.exit_code == 0);
+        return read_file(directory / "picture.ppm");
+    }
+
+    fs::path directory;
+};
+
+bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a kernel file is a reflection model, in a scene and on the command line", "[kernel_files]") {
+    const Workspace place;
+    write_file(place.directory / "lambert.toml",
+               Workspace::scene("reflection = \"lambert\"\nmaterial = { kd = 0.35 }", "point"));
+    const std::string lambert = place.picture({"render", "lambert.toml"});
+    CHECK(place.picture({"render", "scene.toml"}) == lambert);
+    CHECK(place.picture({"render", "lambert.toml", "--reflection", "./half.kernel"}) == lambert);
+    CHECK(place.picture({"render", "scene.toml", "--set", "object.ball.material.kd=0.7"}) != lambert);
+
+    // In a scene, the path is relative to the scene's file.
+    write_file(place.directory / "below/scene.toml",
+               Workspace::scene("reflection = \"../half.kernel\"", "point"));
+    CHECK(place.picture({"render", "below/scene.toml"}) == lambert);
+    const CommandResult printed = place.candela({"check", "scene.toml", "--print"});
+    CHECK(holds(printed.out, "reflection = \"" + (place.directory / "half.kernel").string() + "\""));
+}
+
+TEST_CASE("a kernel file is a light", "[kernel_files]") {
+    const Workspace place;
+    write_file(place.directory / "point.toml",
+               Workspace::scene("reflection = \"lambert\"", "point\"\nattenuation = \"none"));
+    write_file(place.directory / "lamp.toml", Workspace::scene("reflection = \"lambert\"", "lamp.kernel"));
+    CHECK(place.picture({"render", "lamp.toml"}) == place.picture({"render", "point.toml"}));
+}
+
+TEST_CASE("commands that take a model's name take a kernel file", "[kernel_files]") {
+    const Workspace place;
+    const CommandResult described = place.candela({"describe", "half.kernel"});
+    CHECK(holds(described.out, "I_d = k_d / 2 C_o I_L max(N.L, 0)"));
+    CHECK(holds(described.out, "twice the share of light that is reflected"));
+    for (const Words& words :
+         {Words{"plot", "half.kernel", "reflection/lambert", "-o", "lobe.svg"},
+          Words{"plot", "lamp.kernel", "-o", "lamp.csv"},
+          Words{"compare", "scene.toml", "--reflection", "half.kernel,lambert", "-o", "sheet.ppm"},
+          Words{"explain", "scene.toml", "--pixel", "20,15"},
+          Words{"generate", "scene.toml", "--target", "cpp", "-o", "program"},
+          Words{"generate", "scene.toml", "--target", "webgl", "-o", "page"},
+          Words{"exercise", "new", "half.kernel", "--blank", "reflect", "-o", "exercise.html"},
+          Words{"check", "scene.toml"}}) {
+        const CommandResult result = place.candela(words);
+        INFO(words.front() << ": " << result.err);
+        CHECK(result.exit_code == 0);
+    }
+    CHECK(holds(read_file(place.directory / "program/scene.cpp"), "KERNEL Reflected half_reflect("));
+}
+
+TEST_CASE("a kernel file conforms like an installed plugin", "[kernel_files]") {
+    const Workspace place;
+    const CommandResult result = place.candela({"plugin", "test", "half.kernel"});
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 0);
+    CHECK(holds(result.out, "It conforms"));
+}
+
+TEST_CASE("mistakes in a kernel file are shown with its line and a mark", "[kernel_files]") {
+    const Workspace place;
+    std::string wrong = k_half;
+    wrong.replace(wrong.find("max(dot"), 7, "max(dott");
+    write_file(place.directory / "half.kernel", wrong);
+    const CommandResult in_scene = place.candela({"render", "scene.toml"});
+    CHECK(in_scene.exit_code == 3);
+    CHECK(holds(in_scene.err,
+                (place.directory / "half.kernel").string() +
+                    ":15:42: error: unknown function 'dott'; did you mean 'dot'?\n   15 |     return "));
+    CHECK(holds(in_scene.err, "\n      |                                          ^"));
+    CHECK(holds(in_scene.err.substr(in_scene.err.find("dott") + 100), "error:") == false);
+    const CommandResult named = place.candela({"describe", "half.kernel"});
+    CHECK(named.exit_code == 3);
+    CHECK(holds(named.err, "half.kernel:15:42: error: unknown function 'dott'"));
+
+    for (const auto& [text, problem] :
+         {std::pair{"#include </etc/passwd>\n",
+                    "half.kernel:1:1: error: the kernel language has no preprocessor"},
+          std::pair{"KERNEL float f(float x) { return x; }\n",
+                    "half.kernel:1:1: error: a model named 'half' needs a function half_reflect"},
+          std::pair{"/// requires: a\nKERNEL vec3 half_normal(ShadingPoint p) { return p.face_normal; }\n",
+                    "half.kernel:1:16: error: expected 'a <= b because"}}) {
+        write_file(place.directory / "half.kernel", text);
+        const CommandResult result = place.candela({"describe", "half.kernel"});
+        CHECK(result.exit_code == 3);
+        INFO(result.err);
+        CHECK(holds(result.err, problem));
+    }
+}
+
+TEST_CASE("a kernel file that cannot be used says why", "[kernel_files]") {
+    const Workspace place;
+    const auto error_of = [&](const Words& words, const std::string& path = "") {
+        const CommandResult result = place.candela(words, path);
+        CHECK(result.exit_code != 0);
+        return result.err;
+    };
+    CHECK(holds(error_of({"render", "--reflection", "none.kernel"}),
+                "the kernel 'none.kernel' cannot be read"));
+    CHECK(holds(error_of({"render", "--reflection", "lamp.kernel"}),
+                "'lamp.kernel' is a light model; expected a reflection model"));
+    write_file(place.directory / "Big.kernel", k_half);
+    CHECK(holds(error_of({"render", "--reflection", "Big.kernel"}), "is not a valid name of a model's file"));
+    std::string other = k_half;
+    other.insert(0, "// no compiler has seen this\n");
+    write_file(place.directory / "half.kernel", other);
+    fs::create_directories(place.directory / "empty");
+    CHECK(holds(error_of({"render", "scene.toml"}, (place.directory / "empty").string()),
+                "a kernel needs a C++ compiler, and none is installed (packages g++ or clang)"));
+}
+
+TEST_CASE("a kernel is compiled once, and again when its text has changed", "[kernel_files]") {
+    const Workspace place;
+    const std::string first = place.picture({"render", "scene.toml"});
+    const fs::path none = place.directory / "empty";
+    fs::create_directories(none);
+    // What is in the cache needs a compiler's name, but does not run it.
+    const auto before = std::chrono::steady_clock::now();
+    CHECK(place.picture({"render", "scene.toml"}) == first);
+    CHECK(std::chrono::steady_clock::now() - before < std::chrono::seconds(30));
+    std::string brighter = k_half;
+    brighter.replace(brighter.find("= 0.35"), 6, "= 0.70");
+    write_file(place.directory / "half.kernel", brighter);
+    CHECK(place.picture({"render", "scene.toml"}) != first);
+}
