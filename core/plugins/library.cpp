@@ -138,11 +138,14 @@ boost::dll::shared_library open_library(const fs::path& library) {
     }
 }
 
-/// Reads an object at this offset; returns false if the file ends before.
+/// Reads an object at this offset; returns false if the file ends before. Throws Error if reading fails.
 template <class Object>
-bool read_at(RegularFile& file, std::uint64_t offset, Object& object) {
+bool read_at(RegularFile& file, std::uint64_t offset, Object& object, const fs::path& name) {
+    if (offset > file.size() || file.size() - offset < sizeof object) return false;
     const std::span<char> bytes(reinterpret_cast<char*>(&object), sizeof object);
-    return file.seek(offset) && file.read(bytes) == bytes.size();
+    if (!file.seek(offset) || file.read(bytes) != bytes.size())
+        throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", name.string()));
+    return true;
 }
 
 /// The parts of the manifest that contradict the library.
@@ -183,7 +186,7 @@ std::string library_damage(const fs::path& library) {
     if (!file.is_open())
         throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", library.string()));
     ElfW(Ehdr) header{};
-    if (!read_at(file, 0, header) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
+    if (!read_at(file, 0, header, library) || std::memcmp(header.e_ident, ELFMAG, SELFMAG) != 0 ||
         header.e_ident[EI_CLASS] != k_class)
         return "it is not an ELF shared library for this machine";
     const auto holds = [&](std::uint64_t offset, std::uint64_t count) {
@@ -193,7 +196,7 @@ std::string library_damage(const fs::path& library) {
     bool is_complete = header.e_shnum == 0 || holds(header.e_shoff, header.e_shnum * sizeof(ElfW(Shdr)));
     for (std::uint64_t i = 0; is_complete && i < header.e_phnum; ++i) {
         ElfW(Phdr) segment{};
-        is_complete = read_at(file, header.e_phoff + i * sizeof segment, segment) &&
+        is_complete = read_at(file, header.e_phoff + i * sizeof segment, segment, library) &&
                       holds(segment.p_offset, segment.p_filesz);
     }
     return is_complete ? std::string() : fmt::format("it is truncated after {} bytes", file.size());

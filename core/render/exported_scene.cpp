@@ -173,6 +173,7 @@ class Exporter {
                                                             "which this target's programs do not provide",
                                                             name));
         }
+        keep_name(to_.shadings, *exported.plugin, PluginKind::shading, name);
         put(to_.shadings, exported);
     }
 
@@ -188,7 +189,24 @@ class Exporter {
                                     name));
         }
         exported.plugin = &model(PluginKind::reflection, name, {"reflect", "reflect_ambient"});
+        keep_name(to_.reflections, *exported.plugin, PluginKind::reflection, name);
         put(to_.reflections, exported);
+    }
+
+    /// Remembers the name by which the registry knows a model, which may be a kernel file's. Throws Error for
+    /// a second model with the names of another one's kernel functions.
+    template <class Exported>
+    void keep_name(const std::vector<Exported>& others, const PluginDescriptor& plugin, PluginKind kind,
+                   const std::string& name) {
+        names_[&plugin] = name;
+        for (const Exported& other : others) {
+            if (other.plugin == &plugin || std::string_view(other.plugin->name) != plugin.name) continue;
+            throw Error(
+                ErrorCategory::bad_request,
+                fmt::format("the {} models '{}' and '{}' have kernel functions of the same names, which a "
+                            "program cannot contain; rename one of them",
+                            name_of(kind), names_[other.plugin], name));
+        }
     }
 
     void add_models(const Object& object) {
@@ -208,6 +226,7 @@ class Exporter {
 
     void add_extra(const std::string& name) {
         constexpr PluginKind k_kinds[] = {PluginKind::shading, PluginKind::reflection};
+        if (is_kernel_file(name)) return add_default(registry_.require_kernel(name).manifest.kind, name);
         if (name == "all") {
             for (const PluginKind kind : k_kinds) {
                 for (const std::string& each : registry_.names(kind)) {
@@ -298,7 +317,7 @@ class Exporter {
             .color_texture = texture_of(object),
             .color_texture_repeats = object.color_texture_wrap == TextureWrap::repeat};
         for (std::size_t i = 0; i < to_.shadings.size(); ++i) {
-            const std::string name = to_.shadings[i].plugin->name;
+            const std::string& name = names_.at(to_.shadings[i].plugin);
             const bool is_own = name == object.shading.name;
             if (is_own) exported.shading = i;
             own.shading_values.push_back(is_own ? object.shading.parameters
@@ -308,7 +327,7 @@ class Exporter {
             }));
         }
         for (std::size_t i = 0; i < to_.reflections.size(); ++i) {
-            const std::string name = to_.reflections[i].plugin->name;
+            const std::string& name = names_.at(to_.reflections[i].plugin);
             const bool is_own = name == object.reflection.name;
             if (is_own) exported.reflection = i;
             const ParamSet values =
@@ -323,6 +342,7 @@ class Exporter {
     Registry& registry_;
     const Scene& scene_;
     const ExportRequest& request_;
+    std::map<const PluginDescriptor*, std::string> names_;
     std::map<std::pair<PluginKind, std::string>, std::optional<Scene>> with_;
 };
 

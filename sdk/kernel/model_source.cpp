@@ -90,7 +90,7 @@ class SourceWriter {
                                               : "candela::kernel::" + model.structure),
           constants_(model.constants.empty() ? parameters_ : "candela::kernel::" + model.constants) {
         text_ = fmt::format(
-            "// Generated from the model's kernel.\n#include \"candela/{}_plugin.h\"\n#include "
+            "// Generated from a kernel file.\n#include \"candela/{}_plugin.h\"\n#include "
             "\"candela/material_presets.h\"\n\n"
             "namespace candela::kernel {{\n#include {}\n{}}}\n\nnamespace {{\n\nusing namespace "
             "candela::sdk;\nusing Parameters = {};\n\n",

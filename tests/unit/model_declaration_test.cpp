@@ -127,7 +127,7 @@ TEST_CASE("mistakes in a declaration are reported at their place") {
                   "x.kernel:2:5: the model has a title already"},
              Case{"float a;  /// = 1: m", "/// $$ a\n", "x.kernel:1:5: this equation has no closing $$"},
              Case{"float a;  /// = 1: m", "/// expects: a + b <= 2 or not\n",
-                  "x.kernel:1:24: expected 'a <= b because …', 'a < b because …' or 'a + b <= 1 because …'"},
+                  "x.kernel:1:25: expected 'a <= b because …', 'a < b because …' or 'a + b <= 1 because …'"},
              Case{"float a;  /// = 1: m", "/// presets: mine\n", "x.kernel:1:14: expected classic or metals"},
          }) {
         INFO(member << " " << comment);

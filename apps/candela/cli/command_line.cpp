@@ -235,9 +235,9 @@ void forget_triangles_of_models() { triangles_of_models().clear(); }
 void add_scene_options(CommandLine& line) {
     line.positional("scene", -1);
     line.options()("shading", po::value<std::string>()->value_name("NAME"),
-                   "shading model of all objects; overrides the scene")(
+                   "shading model of all objects, or a kernel file; overrides the scene")(
         "reflection", po::value<std::string>()->value_name("NAME"),
-        "reflection model of all objects; overrides the scene")(
+        "reflection model of all objects, or a kernel file; overrides the scene")(
         "width", po::value<std::string>()->value_name("N"), "pixels from left to right")(
         "height", po::value<std::string>()->value_name("N"), "pixels from top to bottom")(
         "samples", po::value<std::string>()->value_name("N"), "samples per pixel: 1, 4, 8 or 16")(

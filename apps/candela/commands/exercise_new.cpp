@@ -201,7 +201,8 @@ void require_no_table(const Exercise& exercise) {
 
 std::string page_for(const Exercise& exercise, candela::Registry& registry) {
     const candela::PluginDescriptor& plugin = *exercise.plugin->descriptor;
-    const NamedModel model{.kind = candela::PluginKind::reflection, .name = plugin.name};
+    const NamedModel model{.kind = candela::PluginKind::reflection,
+                           .name = candela::is_kernel_file(exercise.model) ? exercise.model : plugin.name};
     const TextAroundBody shader = text_around_body(shader_of(model, registry), exercise.function);
     const Ball ball;
     const std::vector<float> normals = interleaved(ball.nx, ball.ny, ball.nz),

@@ -124,7 +124,7 @@ Exercise exercise_about(const std::string& model, const std::string& function, c
                     fmt::format("the kernel of reflection/{} is not in the kernel language: {}",
                                 file.manifest.name, problem.text()));
     }
-    return {.model = "reflection/" + file.manifest.name,
+    return {.model = candela::is_kernel_file(model) ? model : "reflection/" + file.manifest.name,
             .function = name,
             .plugin = &file,
             .text = text_around_body(text, name),
