@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Renders the documentation's pictures again: docs/pictures/*.
+# Renders the documentation's pictures again: docs/pictures/*, and writes the pages of models that they belong to.
 #   scripts/pictures.sh [directory]     to another directory
 # The contact sheet is one scene: in each cell a coarse sphere and a coarse teapot with their own shading and reflection model,
 # all in the same light.
@@ -101,6 +101,9 @@ render "$sheet" -o "$out/reflection-models.png"
 render "$root/docs/examples/still-life.toml" -o "$out/still-life.png"
 render "$root/docs/examples/glass.toml" -o "$out/glass.png"
 render --samples 16 -o "$out/default-scene.png"
+
+# The pages of models, with their pictures.
+python3 -B "$root/scripts/models.py" "$root/build/release/bin/candela" --pictures "$out/models"
 
 # A model in place of a scene.
 model=$(mktemp -d)

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """site.py CANDELA OUT: builds the documentation as a site, OUT/html/index.html, which needs no server.
 
-It contains the documents, a page for each installed model with its picture and lobe, a page with the help of all commands, and a page for each
+It contains the documents, also a page for each shape, picture format and target, a page with the help of all commands, and a page for each
 header and module of C++. mkdocs checks the links between documents; this script checks those of the finished pages."""
+import html
 import html.parser
 import json
 import os
@@ -13,17 +14,22 @@ import sys
 import urllib.parse
 from pathlib import Path
 
-from cpp import Reference
-from models import Models
-
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
+sys.path.append(str(ROOT / "scripts"))
+
+import models  # noqa: E402
+from cpp import Reference  # noqa: E402
 
 
 def copy_documents(sources):
     for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE"):
         shutil.copy(ROOT / name, sources / name)
     shutil.copytree(ROOT / "docs", sources / "docs", ignore=shutil.ignore_patterns("site", "__pycache__"))
+    for kernel in ROOT.glob("plugins/*/*.kernel"):
+        copy = sources / kernel.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy(kernel, copy)
     shutil.copy(HERE / "site.css", sources / "site.css")
     subprocess.run(["esbuild", HERE / "formulas.js", "--bundle", "--minify", "--log-level=error", f"--outfile={sources}/formulas.js"],
                    check=True)
@@ -60,6 +66,25 @@ def commands_page(candela):
     for verb, summary in verbs.items():
         text.append(f"## candela {verb}\n\n{summary[0].upper()}{summary[1:]}.\n\n```text\n{output(verb, '--help').strip()}\n```\n")
     return "\n".join(text)
+
+
+def model_pages(candela, sources):
+    """Adds the pages of models without kernels, and has all formulas typeset; returns the part of the navigation."""
+    folder = sources / "docs/models"
+    shipped = models.shipped(candela, models.KINDS)
+    others = [model for model in shipped if model.kind not in models.KERNEL_KINDS]
+    models.draw(candela, others, sources / "docs/pictures/models")
+    for model in others:
+        (folder / f"{model.file}.md").write_text(models.page(model))
+    (folder / "README.md").write_text(models.index(shipped))
+    for model in shipped:
+        path, formula = folder / f"{model.file}.md", html.escape(model.manifest.get("formula", ""))
+        names = " ".join(parameter["name"] for parameter in model.manifest["parameters"])
+        block = f'<pre class="formula" data-parameters="{names}">{formula}</pre>\n'
+        path.write_text(re.sub(r"^```(?:math|text)\n.*?^```\n", lambda _, block=block: block, path.read_text(), flags=re.DOTALL | re.MULTILINE))
+    by_kind = [{title: [{model.title: f"docs/models/{model.file}.md"} for model in shipped if model.kind == kind]}
+               for kind, title in models.KINDS.items()]
+    return [{"All models": "docs/models/README.md"}, *by_kind]
 
 
 class Links(html.parser.HTMLParser):
@@ -103,7 +128,7 @@ def main():
     copy_documents(sources)
     link_folders(sources)
     (sources / "commands.md").write_text(commands_page(candela))
-    navigation = Models(candela, sources / "models", out / "scenes").write()
+    navigation = model_pages(candela, sources)
     cpp = Reference(ROOT, sources / "cpp", out / "cpp").write()
     settings = (HERE / "mkdocs.yml").read_text()
     # JSON is YAML.
