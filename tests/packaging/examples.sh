@@ -87,7 +87,7 @@ grep -q "pn_normals_of_edge" "$scratch/log" || { cat "$scratch/log" >&2; fail "t
 say "a model that reads its triangle may be lit per face, but not per vertex, since a vertex belongs to several triangles"
 mkdir facets
 for file in pn-normals/*; do
-    sed 's/pn-normals/facets/g; s/pn_normals/facets/g; s/facets, fragment,/facets, face,/' "$file" >"facets/$(basename "${file/%pn-normals*/facets${file##*pn-normals}}")"
+    sed 's/pn-normals/facets/g; s/pn_normals/facets/g; s|^/// reference:|/// rate: face\n&|' "$file" >"facets/$(basename "${file/%pn-normals*/facets${file##*pn-normals}}")"
 done
 quiet "$cmake" -G Ninja -S facets -B facets/build -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER="$cxx" -DCMAKE_PREFIX_PATH="$prefix"
 quiet "$cmake" --build facets/build
@@ -96,8 +96,8 @@ for target in cpp opengl webgl; do
     quiet candela verify --target $target --plugin-dir facets/build --shading facets --width 160 --height 120
     grep -q match "$scratch/log" || { cat "$scratch/log" >&2; fail "$target was not verified with a model that reads its triangle"; }
 done
-grep -q 'facets, face,' facets/facets.cpp || fail "it is lit differently"
-sed -i 's/facets, face,/facets, vertex,/' facets/facets.cpp
+grep -q 'rate: face' facets/facets.kernel || fail "it is lit differently"
+sed -i 's/rate: face/rate: vertex/' facets/facets.kernel
 ! "$cmake" --build facets/build >"$scratch/log" 2>&1 || fail "a model that is lit per vertex takes a Triangle"
 grep -q "a vertex belongs to several" "$scratch/log" || { cat "$scratch/log" >&2; fail "the reason is not given"; }
 say "all well"

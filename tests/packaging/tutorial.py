@@ -122,7 +122,7 @@ def main():
             counts["text"] += 1
         else:
             fail(f"{place}: a block that is neither a file nor commands nor output")
-    if min(counts.values()) < 4:
+    if counts["file"] < 3 or min(counts["sh"], counts["text"]) < 4:
         fail(f"the tutorial has lost its blocks: {counts}")
 
     own = []
