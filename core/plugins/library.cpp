@@ -115,7 +115,7 @@ bool can_start_threads() {
     std::vector<std::jthread> threads;
     try {
         while (threads.size() < k_needed_threads) threads.emplace_back([&] { end.wait(); });
-    } catch (const std::system_error&) {
+    } catch (const std::system_error&) {  // NOLINT(bugprone-empty-catch): the number of threads says it
     }
     end.count_down();
     return threads.size() == k_needed_threads;

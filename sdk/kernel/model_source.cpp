@@ -136,7 +136,6 @@ class SourceWriter {
     std::string data_of_light() const {
         if (model_.kind != PluginKind::light) return "";
         const bool reads_receiver = !model_.reads.receiver.empty();
-        const std::string taken = model_.structure.empty() ? "" : "light";
         const std::string type = constants_.substr(constants_.rfind(':') + 1);
         if (has("punctual")) {
             return fmt::format(
