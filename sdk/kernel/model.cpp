@@ -96,6 +96,8 @@ class ModelReader {
         read_documentation(first_comment(text()), model_);
         find_structure();
         if (model_.title.empty()) model_.title = usual_title();
+        if (model_.summary.empty())
+            model_.summary = fmt::format("A {} model from {}.kernel.", name_of(model_.kind), model_.name);
         if (model_.rate.empty() && model_.kind == PluginKind::shading) model_.rate = "fragment";
         ReadsFinder finder(kernel_, functions_);
         for (const std::string& name : model_.functions) finder.follow(*function(name));

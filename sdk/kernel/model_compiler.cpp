@@ -185,7 +185,11 @@ CompiledKernel compile_model(const Source& kernel, std::string_view name, const 
         throw Error(ErrorCategory::failure,
                     "a kernel needs Candela's headers, which are not installed (package candela-dev)");
     Hash hash;
-    hash.add(checked.model.name).add(checked.text).add(host_abi()).add(compiler->string());
+    hash.add(checked.text)
+        .add(checked.code)
+        .add(plugin_source(checked.model, ""))
+        .add(host_abi())
+        .add(compiler->string());
     for (const std::string& option : options()) hash.add(option);
     add_headers(headers, hash);
     const fs::path folder = cache / hash.text();
