@@ -25,8 +25,10 @@ constinit std::atomic<bool> are_to_end{false}, are_ending{false};
 template <class Visit>
 void for_each_child(const Visit& visit) noexcept {
     const FileDescriptor threads(::open("/proc/self/task", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+    if (threads.number() < 0) return;
     for_each_entry(threads.number(), [&](const char* name) {
         const FileDescriptor thread(::openat(threads.number(), name, O_PATH | O_DIRECTORY | O_CLOEXEC));
+        if (thread.number() < 0) return;
         const FileDescriptor file(::openat(thread.number(), "children", O_RDONLY | O_CLOEXEC));
         pid_t number = 0;
         for (char c = 0; ::read(file.number(), &c, 1) == 1;) {
