@@ -197,59 +197,52 @@ std::unique_ptr<PluginFile> Registry::look_at(const fs::path& directory, PluginK
     return file;
 }
 
-/// The file's plugin if it is of that kind. Throws Error.
-std::unique_ptr<PluginFile> Registry::plugin_of_kernel(PluginKind kind, const fs::path& file) {
+/// Throws Error.
+std::unique_ptr<PluginFile> Registry::plugin_of_kernel(const fs::path& file) {
     if (!compile_kernel_)
         throw Error(ErrorCategory::bad_request,
                     fmt::format("'{}' is a kernel file, which cannot be used here", file.string()));
     const CompiledKernel compiled = compile_kernel_(file);
-    if (compiled.kind != kind)
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("'{}' is a {} model; expected a {} model", file.string(),
-                                candela::name_of(compiled.kind), candela::name_of(kind)));
-    if (auto plugin = look_at(compiled.folder, kind, compiled.name)) return plugin;
-    const auto refused = refused_.find(library_of(compiled.folder, kind, compiled.name));
+    if (auto plugin = look_at(compiled.folder, compiled.kind, compiled.name)) return plugin;
+    const auto refused = refused_.find(library_of(compiled.folder, compiled.kind, compiled.name));
     throw Error(ErrorCategory::failure,
                 refused != refused_.end() ? refused->second.reason
                                           : fmt::format("the compiled '{}' has disappeared", file.string()));
 }
 
-const PluginFile* Registry::find_kernel(PluginKind kind, std::string_view file) {
-    const auto [entry, is_new] = kernels_.try_emplace({kind, std::string(file)});
+/// Compiles the file when it is named for the first time.
+const Registry::KernelEntry& Registry::kernel_entry(std::string_view file) {
+    const auto [entry, is_new] = kernels_.try_emplace(std::string(file));
     if (is_new) {
         try {
-            entry->second.plugin = plugin_of_kernel(kind, entry->first.second);
+            entry->second.plugin = plugin_of_kernel(entry->first);
         } catch (...) {
             entry->second.problem = std::current_exception();
         }
     }
-    return entry->second.plugin.get();
+    return entry->second;
 }
 
 const PluginFile& Registry::require_kernel(const std::string& file) {
-    if (!compile_kernel_)
-        throw Error(ErrorCategory::bad_request,
-                    fmt::format("'{}' is a kernel file, which cannot be used here", file));
-    return require(compile_kernel_(file).kind, file);
+    const std::lock_guard lock(mutex_);
+    const KernelEntry& entry = kernel_entry(file);
+    if (entry.problem) std::rethrow_exception(entry.problem);
+    return *entry.plugin;
 }
 
 std::vector<fs::path> Registry::kernel_files() const {
     const std::lock_guard lock(mutex_);
     std::vector<fs::path> files;
-    for (const auto& [named, entry] : kernels_) files.emplace_back(named.second);
+    for (const auto& [file, entry] : kernels_) files.emplace_back(file);
     return files;
-}
-
-void Registry::reread_kernel_files() {
-    const std::lock_guard lock(mutex_);
-    for (auto& [named, entry] : kernels_)
-        if (entry.plugin != nullptr) former_kernels_.push_back(std::move(entry.plugin));
-    kernels_.clear();
 }
 
 const PluginFile* Registry::find(PluginKind kind, std::string_view name) {
     const std::lock_guard lock(mutex_);
-    if (is_kernel_file(name)) return find_kernel(kind, name);
+    if (is_kernel_file(name)) {
+        const PluginFile* const plugin = kernel_entry(name).plugin.get();
+        return plugin != nullptr && plugin->manifest.kind == kind ? plugin : nullptr;
+    }
     const std::string id = id_of(kind, name);
     if (const auto known = found_.find(id); known != found_.end()) return known->second.get();
     if (name.find('/') != std::string_view::npos) return nullptr;
@@ -288,8 +281,12 @@ void Registry::report_replaced(const PluginFile& instead, PluginKind kind, std::
 const PluginFile& Registry::require(PluginKind kind, std::string_view name) {
     if (const PluginFile* const file = find(kind, name)) return *file;
     const std::lock_guard lock(mutex_);
-    if (const auto kernel = kernels_.find(std::pair(kind, std::string(name))); kernel != kernels_.end())
-        std::rethrow_exception(kernel->second.problem);
+    if (is_kernel_file(name)) {
+        const PluginFile& plugin = require_kernel(std::string(name));
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' is a {} model; expected a {} model", name,
+                                candela::name_of(plugin.manifest.kind), candela::name_of(kind)));
+    }
     if (const auto refused = refused_before(nullptr, kind, name); !refused.empty())
         throw Error(ErrorCategory::failure, refused.front()->reason, refused.front()->help);
     const std::vector<std::string> known = names(kind);

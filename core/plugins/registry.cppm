@@ -122,8 +122,6 @@ class CANDELA_EXPORT Registry {
 
     /// The kernel files that have been named.
     std::vector<std::filesystem::path> kernel_files() const;
-    /// Kernel files are read again when they are named again; pointers to the plugins of before stay valid.
-    void reread_kernel_files();
 
     const std::vector<std::filesystem::path>& search_path() const noexcept { return search_path_; }
     PluginTrust trust() const noexcept { return trust_; }
@@ -174,8 +172,7 @@ class CANDELA_EXPORT Registry {
     [[noreturn]] static void throw_wrong_interface(PluginKind kind, std::string_view name);
     std::unique_ptr<PluginFile> look_at(const std::filesystem::path& directory, PluginKind kind,
                                         std::string_view name);
-    const PluginFile* find_kernel(PluginKind kind, std::string_view file);
-    std::unique_ptr<PluginFile> plugin_of_kernel(PluginKind kind, const std::filesystem::path& file);
+    std::unique_ptr<PluginFile> plugin_of_kernel(const std::filesystem::path& file);
     /// The refused candidates of that name that precede `instead` (null: all), in search order.
     std::vector<Refusal*> refused_before(const PluginFile* instead, PluginKind kind, std::string_view name);
     void report_replaced(const PluginFile& instead, PluginKind kind, std::string_view name);
@@ -195,8 +192,8 @@ class CANDELA_EXPORT Registry {
         std::unique_ptr<PluginFile> plugin;
         std::exception_ptr problem;
     };
-    std::map<std::pair<PluginKind, std::string>, KernelEntry, std::less<>> kernels_;
-    std::vector<std::unique_ptr<PluginFile>> former_kernels_;
+    const KernelEntry& kernel_entry(std::string_view file);
+    std::map<std::string, KernelEntry, std::less<>> kernels_;
     std::map<std::filesystem::path, Refusal> refused_;
 };
 

@@ -102,18 +102,13 @@ CheckedModel check(const Source& kernel, std::string_view name) {
     try {
         std::string prefix(name);
         std::ranges::replace(prefix, '-', '_');
-        const std::string text = completed(read_kernel(kernel), prefix);
-        const Kernel whole = read_kernel({kernel.name, text});
+        Kernel whole = read_kernel(kernel);
+        const std::string text = completed(whole, prefix);
+        if (text != kernel.text) whole = read_kernel({kernel.name, text});
         return {text, emitted(whole, Emission::guarded_cpp), read_model(whole, name)};
     } catch (const Problem& problem) {
         refuse(problem, kernel.text);
     }
-}
-
-void write(const fs::path& file, std::string_view text) {
-    OutputFile out(file, Existing::replaced);
-    out.write(text);
-    out.finish();
 }
 
 /// Replaces the temporary folder, which users do not know, in a compiler's message.
@@ -128,10 +123,11 @@ std::string without(const fs::path& folder, std::string message) {
 void build(const CheckedModel& checked, const fs::path& compiler, const fs::path& headers,
            const fs::path& folder, const std::string& library) {
     const std::string& name = checked.model.name;
-    write(folder / (name + ".kernel"), checked.text);
-    write(folder / (name + ".inc"), checked.code);
-    write(folder / (name + ".cpp"), plugin_source(checked.model, (folder / (name + ".inc")).string()));
-    write(folder / "plugin.map", "{ global: candela_*; local: *; };\n");
+    write_text_file(folder / (name + ".kernel"), checked.text);
+    write_text_file(folder / (name + ".inc"), checked.code);
+    write_text_file(folder / (name + ".cpp"),
+                    plugin_source(checked.model, (folder / (name + ".inc")).string()));
+    write_text_file(folder / "plugin.map", "{ global: candela_*; local: *; };\n");
     std::vector<std::string> words = options();
     words.insert(words.end(),
                  {fmt::format("-DCANDELA_PLUGIN_NAME=\"{}\"", name),
@@ -148,7 +144,8 @@ void build(const CheckedModel& checked, const fs::path& compiler, const fs::path
                     fmt::format("{} could not compile the kernel: {}", compiler.filename().string(),
                                 without(folder, first_error(report.log))));
     }
-    write(folder / (library + ".json"), to_json(manifest_of(load_plugin(output, nullptr), host_abi())));
+    write_text_file(folder / (library + ".json"),
+                    to_json(manifest_of(load_plugin(output, nullptr), host_abi())));
     for (const char* const extension : {".inc", ".cpp"}) fs::remove(folder / (name + extension));
     fs::remove(folder / "plugin.map");
 }

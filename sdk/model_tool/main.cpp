@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
 #include "candela/kernel_language/language.h"
 #include "candela/kernel_language/model.h"
+
+import candela.util;
 
 namespace fs = std::filesystem;
 namespace kl = candela::kernel_language;
@@ -18,22 +18,14 @@ namespace kl = candela::kernel_language;
 namespace {
 
 std::string text_of(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (!in) throw std::runtime_error("cannot read '" + file.string() + "'");
-    return text;
+    const auto text = candela::read_text_file(file);
+    if (!text) throw std::runtime_error("cannot read '" + file.string() + "'");
+    return *text;
 }
 
 /// Leaves a file that has this text already, so that it is not compiled again.
 void write(const fs::path& file, const std::string& text) {
-    if (fs::exists(file) && text_of(file) == text) return;
-    const fs::path temporary = file.string() + ".new";
-    {
-        std::ofstream out(temporary, std::ios::binary);
-        if (!(out << text) || !out.flush())
-            throw std::runtime_error("cannot write '" + temporary.string() + "'");
-    }
-    fs::rename(temporary, file);
+    if (candela::read_text_file(file) != text) candela::write_text_file(file, text);
 }
 
 }  // namespace
