@@ -1,7 +1,7 @@
 """third_party.py BUILD SCRATCH [--instructions | --rounds 7] [--compiler g++]: plugins of a third party against the shipped ones.
 
 Makes a project for each of point light, Phong's reflection model and Phong's shading as `candela plugin new` does, puts the
-formulas of the shipped plugins into it, builds it against an installation and nothing else, and renders scene AR with
+shipped kernels into it, builds it against an installation and nothing else, and renders scene AR with
 both. --instructions: counts them with callgrind, and fails if a third party's plugins take 5 % more (the machine does not
 matter). Otherwise times frames in turns."""
 
@@ -47,8 +47,7 @@ def build_plugins(prefix, scratch, compiler):
     for kind, name in PLUGINS:
         project = scratch / f"{kind}-{name}"
         quiet(prefix / "bin/candela", "plugin", "new", kind, name, project)
-        for file in (f"{name}.cpp", f"{name}.kernel"):
-            shutil.copy(SHIPPED / kind / name / file, project / file)
+        shutil.copy(SHIPPED / kind / f"{name}.kernel", project)
         quiet("cmake", "-G", "Ninja", "-S", project, "-B", project / "build", "-DCMAKE_BUILD_TYPE=Release",
               f"-DCMAKE_CXX_COMPILER={compiler}", f"-DCMAKE_PREFIX_PATH={prefix}")
         quiet("cmake", "--build", project / "build", "--target", f"candela_{kind}_{name}")

@@ -14,10 +14,13 @@ function valueElement(value) {
     return mathRow(mathSign("("), ...value.flatMap((x, i) => (i === 0 ? [mathNumber(shown(x))] : [mathSign(","), mathNumber(shown(x))])), mathSign(")"));
 }
 
+/** The code may write a formula's k_s or C_1 as ks or C1. */
+const valueNamed = (values, name) => values.get(name) ?? values.get(name.replace("_", ""));
+
 /** The replacement of a node whose names have values. */
 function substitution(values) {
     return (node) => {
-        const valueOf = (one) => (one.kind === "name" ? values.get(one.text) : undefined);
+        const valueOf = (one) => (one.kind === "name" ? valueNamed(values, one.text) : undefined);
         if (node.kind === "dot") {
             const [a, b] = node.of.map(valueOf);
             return Array.isArray(a) && Array.isArray(b) ? valueElement(dot(a, b)) : null;
@@ -75,7 +78,7 @@ export function formulaAt(model, point, light, own, steps) {
             const arriving = found.name === "I_s" ? light.specular : light.diffuse;
             const here = new Map(values);
             if (arriving) here.set("I_L", arriving);
-            const result = values.get(found.name);
+            const result = valueNamed(values, found.name);
             const name = treeElement({ kind: "name", text: found.name });
             const numbers = treeElement(found.right, substitution(here)), formula = treeElement(found.right);
             return [element("div", { class: "formula-steps", title: part.text },
