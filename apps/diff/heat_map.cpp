@@ -33,7 +33,7 @@ const std::vector<std::string>& lossless_extensions() {
 }
 
 /// Red, green and blue of each pixel.
-std::vector<std::uint8_t> heat_colors(const Picture& a, const Picture& b, double maximum) {
+std::vector<std::uint8_t> heat_colors(const Image& a, const Image& b, double maximum) {
     std::vector<float> heat(a.pixels());
     for (std::size_t i = 0; i < heat.size() && maximum > 0; ++i)
         heat[i] = static_cast<float>(largest_difference(a, b, i) / maximum);
@@ -82,7 +82,7 @@ void require_heat_map_format(const fs::path& file) {
                             meant.empty() ? "" : "; " + meant, fmt::join(lossless_extensions(), ", ")));
 }
 
-void write_heat_map(const fs::path& file, const Picture& a, const Picture& b, double maximum,
+void write_heat_map(const fs::path& file, const Image& a, const Image& b, double maximum,
                     candela::Existing existing) {
     // The heat, its colours in floats and in bytes, and the file.
     candela::require_memory(a.pixels() * (4 + 12 + 3 + 3), "the heat-map");

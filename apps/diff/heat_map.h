@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "compare/picture.h"
+#include "compare/image.h"
 
 import candela.util;
 
@@ -13,5 +13,5 @@ void require_heat_map_format(const std::filesystem::path& file);
 /// Writes the largest channel difference of each pixel as a colour, from black (no difference) to white-hot
 /// (`maximum` levels); 8-bit RGB, complete or not at all. `existing`: what to do with an existing file.
 /// Throws candela::Error.
-void write_heat_map(const std::filesystem::path& file, const Picture& a, const Picture& b, double maximum,
+void write_heat_map(const std::filesystem::path& file, const Image& a, const Image& b, double maximum,
                     candela::Existing existing);

@@ -17,7 +17,7 @@
 #include "compare/perception.h"
 #include "console/reporting.h"
 #include "heat_map.h"
-#include "picture_file.h"
+#include "image_file.h"
 
 import candela.util;
 
@@ -33,7 +33,7 @@ std::string maximum_text(const DifferenceStatistics& statistics) {
     return fmt::format("{:.6g} levels, first at x {}, y {}", statistics.maximum, statistics.x, statistics.y);
 }
 
-void print_text(const Picture& a, const Comparison& comparison) {
+void print_text(const Image& a, const Comparison& comparison) {
     const Differences& differences = comparison.differences;
     const auto print = [](const char* name, const std::string& value) {
         std::cout << fmt::format("{:<19} {}\n", name, value);
@@ -67,19 +67,18 @@ double tolerance_from(const CommandLine& line) {
     return tolerance;
 }
 
-void require_same_size(const std::string& a_name, const Picture& a, const std::string& b_name,
-                       const Picture& b) {
+void require_same_size(const std::string& a_name, const Image& a, const std::string& b_name, const Image& b) {
     if (a.width == b.width && a.height == b.height) return;
     throw Error(ErrorCategory::failure,
                 fmt::format("the pictures differ in size: '{}' has {} pixels, '{}' has {}", a_name,
                             dimensions_text(a), b_name, dimensions_text(b)));
 }
 
-void write_ppm(const std::string& file, const Picture& picture, candela::Existing existing) {
-    std::string text = fmt::format("P6\n{} {}\n255\n", picture.width, picture.height);
-    text.reserve(text.size() + picture.values.size());
-    for (std::size_t i = 0; i < picture.values.size(); ++i)
-        text += static_cast<char>(std::lround(255 * std::clamp(picture.normalized(i), 0.0f, 1.0f)));
+void write_ppm(const std::string& file, const Image& image, candela::Existing existing) {
+    std::string text = fmt::format("P6\n{} {}\n255\n", image.width, image.height);
+    text.reserve(text.size() + image.values.size());
+    for (std::size_t i = 0; i < image.values.size(); ++i)
+        text += static_cast<char>(std::lround(255 * std::clamp(image.normalized(i), 0.0f, 1.0f)));
     candela::write_text_file(file, text, existing);
 }
 
@@ -131,13 +130,13 @@ int run(const std::vector<std::string>& arguments) {
     }
 
     candela::Registry registry = registry_from(line);
-    const Picture a = read_picture(names[0], registry), b = read_picture(names[1], registry);
+    const Image a = read_image(names[0], registry), b = read_image(names[1], registry);
     if (line.has("decoded")) write_ppm(line.get<std::string>("decoded"), b, existing);
     require_same_size(names[0], a, names[1], b);
-    std::optional<Picture> mask;
+    std::optional<Image> mask;
     if (line.has("mask")) {
         const auto file = line.get<std::string>("mask");
-        mask = read_picture(file, registry);
+        mask = read_image(file, registry);
         require_same_size(names[0], a, file, *mask);
     }
     Comparison comparison{.width = a.width,

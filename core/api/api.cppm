@@ -56,10 +56,10 @@ using candela::UniformAmbientSource;
 
 // candela/image_format.h
 using candela::ByteSink;
+using candela::ImageChannel;
 using candela::ImageFormat;
-using candela::PictureChannel;
-using candela::PictureSink;
-using candela::PictureView;
+using candela::ImageSink;
+using candela::ImageView;
 
 // candela/light.h
 using candela::IncidentBatch;
@@ -102,7 +102,7 @@ using candela::RelationSpec;
 using candela::RelationType;
 
 // candela/scanline_image.h
-using candela::PictureRows;
+using candela::ImageRows;
 using candela::RandomAccessSink;
 using candela::ScanlineImageFormat;
 using candela::ViewedRows;

@@ -6,16 +6,16 @@
 namespace candela {
 
 ByteSink::~ByteSink() = default;
-PictureSink::~PictureSink() = default;
+ImageSink::~ImageSink() = default;
 
-std::span<float> PictureSink::allocate_opacity() { return {}; }
+std::span<float> ImageSink::allocate_opacity() { return {}; }
 ImageFormat::~ImageFormat() = default;
 
-void ImageFormat::write_layers(int, int, std::span<const PictureChannel>, const char*, ByteSink&) const {
+void ImageFormat::write_layers(int, int, std::span<const ImageChannel>, const char*, ByteSink&) const {
     throw std::runtime_error("this plugin writes no layers");
 }
 
-void ImageFormat::read(const char*, PictureSink&) const {
+void ImageFormat::read(const char*, ImageSink&) const {
     throw std::runtime_error("this plugin writes pictures and reads none");
 }
 

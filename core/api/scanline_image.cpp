@@ -5,23 +5,23 @@
 
 namespace candela {
 
-PictureRows::~PictureRows() = default;
+ImageRows::~ImageRows() = default;
 RandomAccessSink::~RandomAccessSink() = default;
 ScanlineImageFormat::~ScanlineImageFormat() = default;
 
-ViewedRows::ViewedRows(const PictureView& picture) : picture_(picture) {}
+ViewedRows::ViewedRows(const ImageView& image) : image_(image) {}
 ViewedRows::~ViewedRows() = default;
 
-PictureView ViewedRows::next(int count) {
-    PictureView rows = picture_;
-    rows.height = std::min(count, picture_.height - done_);
-    const std::size_t row = 3 * static_cast<std::size_t>(picture_.width);
+ImageView ViewedRows::next(int count) {
+    ImageView rows = image_;
+    rows.height = std::min(count, image_.height - done_);
+    const std::size_t row = 3 * static_cast<std::size_t>(image_.width);
     const std::size_t first = row * static_cast<std::size_t>(done_);
     const std::size_t size = row * static_cast<std::size_t>(rows.height);
-    if (picture_.pixels == PixelType::byte) {
-        rows.bytes = picture_.bytes.subspan(first, size);
+    if (image_.pixels == PixelType::byte) {
+        rows.bytes = image_.bytes.subspan(first, size);
     } else {
-        rows.reals = picture_.reals.subspan(first, size);
+        rows.reals = image_.reals.subspan(first, size);
     }
     done_ += rows.height;
     return rows;

@@ -99,12 +99,12 @@ struct Scene::Parts {
         warnings.insert(warnings.end(), replaced.begin(), replaced.end());
     }
 
-    template <typename Picture, typename Value>
-    Picture render(PixelType pixels, std::span<const Value> PictureView::* values) {
+    template <typename Image, typename Value>
+    Image render(PixelType pixels, std::span<const Value> ImageView::* values) {
         const ImageSettings& image = scene->image;
         Film film(image.width, image.height, pixels, image.color_management);
         renderer.render(*scene, film, {.threads = options.threads, .progress = options.progress});
-        const PictureView view = film.view();
+        const ImageView view = film.view();
         const std::span<const Value> all = view.*values;
         return {.width = film.width(), .height = film.height(), .rgb = {all.begin(), all.end()}};
     }
@@ -154,12 +154,12 @@ const std::vector<Problem>& Scene::warnings() const noexcept { return parts_->wa
 int Scene::width() const noexcept { return parts_->scene->image.width; }
 int Scene::height() const noexcept { return parts_->scene->image.height; }
 
-BytePicture Scene::render() {
-    return translated([&] { return parts_->render<BytePicture>(PixelType::byte, &PictureView::bytes); });
+ByteImage Scene::render() {
+    return translated([&] { return parts_->render<ByteImage>(PixelType::byte, &ImageView::bytes); });
 }
 
-FloatPicture Scene::render_floats() {
-    return translated([&] { return parts_->render<FloatPicture>(PixelType::real, &PictureView::reals); });
+FloatImage Scene::render_floats() {
+    return translated([&] { return parts_->render<FloatImage>(PixelType::real, &ImageView::reals); });
 }
 
 }  // namespace candela::embedding

@@ -17,10 +17,10 @@ import candela.api;
 export namespace candela {
 
 /// A picture as an image plugin has read it.
-struct DecodedPicture {
+struct DecodedImage {
     int width = 0;                 ///< pixels, at least 1
     int height = 0;                ///< pixels, at least 1
-    bool is_encoded = false;       ///< 0 to 1, as PictureSink::allocate() documents, not intensities
+    bool is_encoded = false;       ///< 0 to 1, as ImageSink::allocate() documents, not intensities
     std::vector<float> values;     ///< red, green, blue, interleaved, rows from the top
     std::vector<float> opacity{};  ///< of each pixel; empty: all are opaque, or it was not requested
 };
@@ -39,9 +39,9 @@ CANDELA_EXPORT const PluginFile* reader_of(const std::filesystem::path& file, Re
 
 /// Reads a picture with the plugin of reader_of(); nothing if there is none. Throws Error (failure) if the
 /// plugin cannot read it or memory is short. Any thread.
-CANDELA_EXPORT std::optional<DecodedPicture> read_by_plugin(const std::filesystem::path& file,
-                                                            Registry& registry, ColorEncoding encoding,
-                                                            bool with_opacity = false);
+CANDELA_EXPORT std::optional<DecodedImage> read_by_plugin(const std::filesystem::path& file,
+                                                          Registry& registry, ColorEncoding encoding,
+                                                          bool with_opacity = false);
 
 /// " (possible: pnm, png)", and the package of the other formats if their plugin is not installed. Throws
 /// Error like Registry::extensions(). Any thread.

@@ -24,11 +24,11 @@ namespace {
 /// Scales homogeneous coordinates that are so large or so small that products of two leave the range of
 /// floats. The factor is a power of two, so that nothing is rounded.
 void keep_in_range(TriangleAttributes& t) {
-    constexpr float k_largest_picture = 65536;
+    constexpr float k_largest_image = 65536;
     constexpr float k_large = 0x1p40f;
     float largest = 0;
     for (const ProjectedVertex& v : t.projected)
-        largest = std::max({largest, std::abs(v.x), std::abs(v.y), k_largest_picture * std::abs(v.w)});
+        largest = std::max({largest, std::abs(v.x), std::abs(v.y), k_largest_image * std::abs(v.w)});
     if (largest == 0 || (largest < k_large && largest > 1 / k_large)) return;
     const int exponent = -std::ilogb(largest);
     for (ProjectedVertex& v : t.projected) {

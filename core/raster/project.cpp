@@ -43,7 +43,7 @@ struct ProjectLoop {
         const float cx = 0.5f * width, cy = 0.5f * height;
         const auto one = static_cast<float>(1 << subpixel_bits);
         const bool perspective = camera.projection == Projection::perspective;
-        constexpr float k_largest_picture = 65536;
+        constexpr float k_largest_image = 65536;
         std::int32_t largest = *largest_bits;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
@@ -76,7 +76,7 @@ struct ProjectLoop {
                 view | (is_near ? 0u : Outside::guard) | ((is_near & !is_somewhere) ? Outside::nowhere : 0u);
 
             const std::int32_t at_x = magnitude(x), at_y = magnitude(y);
-            const std::int32_t far = magnitude(k_largest_picture * distance);
+            const std::int32_t far = magnitude(k_largest_image * distance);
             const std::int32_t xy = at_x > at_y ? at_x : at_y;
             const std::int32_t all = xy > far ? xy : far;
             largest = largest > all ? largest : all;

@@ -168,7 +168,7 @@ class Compiler {
             guarded("object " + object.label.text(), object.texture_place, [&] {
                 const auto [known, is_new] = textures_.try_emplace(object.color_texture);
                 if (is_new) {
-                    const TexturePicture read = read_texture(object.color_texture, registry_, encoding());
+                    const TextureImage read = read_texture(object.color_texture, registry_, encoding());
                     known->second = read.mip_map;
                     if (read.was_clamped)
                         diagnostics_.warning(object.texture_place,

@@ -168,7 +168,7 @@ void Film::paste(int x, int y, const Film& other) {
     }
 }
 
-PictureView Film::view() const noexcept {
+ImageView Film::view() const noexcept {
     return {.width = width_,
             .height = rows_.count(),
             .pixels = pixels_,

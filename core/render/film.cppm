@@ -52,7 +52,7 @@ class CANDELA_EXPORT Film {
     void paste(int x, int y, const Film& other);
 
     /// All rows of the film.
-    PictureView view() const noexcept;
+    ImageView view() const noexcept;
 
   private:
     std::size_t index_of(int x, int y) const noexcept;
@@ -67,7 +67,7 @@ class CANDELA_EXPORT Film {
 };
 
 /// The plugin that writes a picture, and the form in which it requires the pixels.
-struct PictureFormat {
+struct OutputFormat {
     std::string plugin;
     std::string extension;
     PixelType pixels = PixelType::byte;
@@ -77,31 +77,31 @@ struct PictureFormat {
 
 /// The format of a path, by its extension, with the plugin's default parameters; "-", standard output, is
 /// PNG. Throws Error for an extension that no plugin writes.
-CANDELA_EXPORT PictureFormat format_of(const std::filesystem::path& path, Registry& registry);
+CANDELA_EXPORT OutputFormat format_of(const std::filesystem::path& path, Registry& registry);
 
 /// Writes the picture atomically, through an OutputFile; `existing` and `links` say how to treat an existing
 /// file and a link.
 /// Plugins that encode on several threads use those of with_threads(). Throws Error.
-CANDELA_EXPORT void write_picture(const Film& film, const PictureFormat& format,
-                                  const std::filesystem::path& path, Registry& registry,
-                                  Existing existing = Existing::replaced, Links links = Links::followed);
+CANDELA_EXPORT void write_image(const Film& film, const OutputFormat& format,
+                                const std::filesystem::path& path, Registry& registry,
+                                Existing existing = Existing::replaced, Links links = Links::followed);
 
 /// Like the above, into a file that the caller finishes.
-CANDELA_EXPORT void write_picture(const Film& film, const PictureFormat& format, OutputFile& file,
-                                  Registry& registry);
+CANDELA_EXPORT void write_image(const Film& film, const OutputFormat& format, OutputFile& file,
+                                Registry& registry);
 
 /// Whether write_rows() can write the format without the whole picture in memory.
-CANDELA_EXPORT bool can_write_rows(const PictureFormat& format, Registry& registry);
+CANDELA_EXPORT bool can_write_rows(const OutputFormat& format, Registry& registry);
 
-/// Writes the same bytes as write_picture(), for a picture that need not be in memory. `whole`: the picture
+/// Writes the same bytes as write_image(), for a picture that need not be in memory. `whole`: the picture
 /// without its pixels. Throws Error.
-CANDELA_EXPORT void write_rows(const PictureView& whole, PictureRows& rows, const PictureFormat& format,
+CANDELA_EXPORT void write_rows(const ImageView& whole, ImageRows& rows, const OutputFormat& format,
                                const std::filesystem::path& path, Registry& registry,
                                Existing existing = Existing::replaced);
 
 /// Writes a picture with layers in the same way, in a format that supports them.
-CANDELA_EXPORT void write_layers(int width, int height, std::span<const PictureChannel> channels,
-                                 const PictureFormat& format, const std::filesystem::path& path,
+CANDELA_EXPORT void write_layers(int width, int height, std::span<const ImageChannel> channels,
+                                 const OutputFormat& format, const std::filesystem::path& path,
                                  Registry& registry, Existing existing = Existing::replaced);
 
 }  // namespace candela

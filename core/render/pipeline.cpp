@@ -1,5 +1,5 @@
 // The pipeline on one page, from a compiled scene to the film. Shapes have been tessellated and vertex
-// normals computed before (build.cpp); the image plugin writes the film afterwards (picture_file.cpp).
+// normals computed before (build.cpp); the image plugin writes the film afterwards (image_file.cpp).
 module;
 
 #include <algorithm>

@@ -68,19 +68,19 @@ void RenderedRows::render_band(int first) {
     statistics_.seconds_on_tiles += band.seconds_on_tiles;
 }
 
-PictureView RenderedRows::next(int count) {
+ImageView RenderedRows::next(int count) {
     const int end = next_ + std::min(count, rows_.end - next_);
     const int width = scene_.image.width;
     bytes_.clear();
     reals_.clear();
-    PictureView result{
+    ImageView result{
         .width = width, .height = end - next_, .pixels = pixels_, .encoding = scene_.image.color_management};
     const int first = next_;
     while (next_ < end) {
         if (!band_ || next_ >= band_->rows().end) render_band(next_);
         const RowRange rows = band_->rows();
         const int some = std::min(end, rows.end) - next_;
-        const PictureView view = band_->view();
+        const ImageView view = band_->view();
         const bool is_whole = next_ == first && some == result.height;
         if (pixels_ == PixelType::byte) {
             result.bytes = rows_of(view.bytes, width, next_ - rows.first, some);

@@ -19,13 +19,13 @@ export namespace candela {
 
 /// Renders rows of a picture on request, a band at a time: the same pixels as candela::render(), in memory
 /// for two bands of about 64 MB. One thread at a time.
-class CANDELA_EXPORT RenderedRows final : public PictureRows {
+class CANDELA_EXPORT RenderedRows final : public ImageRows {
   public:
     /// The scene must outlive this. `options.progress` counts rows.
     RenderedRows(const RenderScene& scene, PixelType pixels, RowRange rows, RenderOptions options);
     ~RenderedRows() override;
 
-    PictureView next(int count) override;
+    ImageView next(int count) override;
 
     /// Statistics of all rows so far.
     const RenderStatistics& statistics() const noexcept { return statistics_; }

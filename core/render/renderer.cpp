@@ -106,14 +106,14 @@ struct Renderer::Kept {
         statistics.triangles = projected.first_triangle.back();
 
         const auto tiles_begin = Clock::now();
-        const auto begin_picture = [&](TileWorker& worker) {
+        const auto begin_image = [&](TileWorker& worker) {
             worker.shader.begin(scene, projected, options.term, options.light);
             worker.pixels_shaded = 0;
         };
-        workers.each(begin_picture);
+        workers.each(begin_image);
         const auto make = [&] {
             auto worker = std::make_unique<TileWorker>();
-            begin_picture(*worker);
+            begin_image(*worker);
             return worker;
         };
         std::vector<std::uint8_t> is_done(tile_count);

@@ -163,7 +163,7 @@ struct SceneDraft {
     bool has_room = true;
     bool has_observer = true;                    // its position is known
     bool is_complete = true;                     // there were no errors
-    SourceLocation picture_place{};              // of the setting that determines the picture's size
+    SourceLocation image_place{};                // of the setting that determines the picture's size
     std::vector<std::filesystem::path> files{};  // all files that were read, as absolute paths
 };
 

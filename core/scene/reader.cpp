@@ -141,10 +141,10 @@ class Reader {
     void read_image() {
         tables_.read(own_tables().image, scene_.image);
         const TableNode* const table = tables_.single("image");
-        draft_.picture_place = tables_.context_of("image").place;
+        draft_.image_place = tables_.context_of("image").place;
         for (const char* const key : {"width", "height"}) {
             if (table != nullptr && table->find(key) != nullptr)
-                draft_.picture_place = table->find(key)->node.place;
+                draft_.image_place = table->find(key)->node.place;
         }
         if (table == nullptr || table->find("environment") == nullptr) return;
         if (const TableNode::Entry* const unused = table->find("background"))

@@ -30,7 +30,7 @@ constexpr std::string_view k_objects = "write an [[object]] for each";
 constexpr std::string_view k_observer_table = "the camera is the table [observer]";
 constexpr std::string_view k_materials = "a material is the table [object.material], below its [[object]]";
 constexpr std::string_view k_size = "write width and height";
-constexpr std::string_view k_name_of_picture = "-o gives the picture's name and format";
+constexpr std::string_view k_name_of_image = "-o gives the picture's name and format";
 constexpr std::string_view k_one_texture = "the only texture is for the colour: color_texture";
 constexpr std::string_view k_shape_size = "an object's size is its 'scale'";
 constexpr std::string_view k_cone = "write inner_angle and outer_angle, half-angles in degrees";
@@ -116,11 +116,11 @@ constexpr auto k_words = std::to_array<Word>({
     {"image", "hdri", "environment"},
     {"image", "gamma", "color_management"},
     {"image", "color_space", "color_management"},
-    {"image", "file", k_name_of_picture},
-    {"image", "filename", k_name_of_picture},
-    {"image", "format", k_name_of_picture},
-    {"image", "name", k_name_of_picture},
-    {"image", "output", k_name_of_picture},
+    {"image", "file", k_name_of_image},
+    {"image", "filename", k_name_of_image},
+    {"image", "format", k_name_of_image},
+    {"image", "name", k_name_of_image},
+    {"image", "output", k_name_of_image},
     {"light", "pos", "position"},
     {"light", "location", "position"},
     {"light", "dir", "direction"},

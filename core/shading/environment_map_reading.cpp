@@ -18,14 +18,14 @@ namespace candela {
 
 EnvironmentMap read_environment(const std::filesystem::path& file, Registry& registry,
                                 ColorEncoding encoding) {
-    std::optional<DecodedPicture> picture = read_by_plugin(file, registry, encoding);
-    if (!picture) {
+    std::optional<DecodedImage> image = read_by_plugin(file, registry, encoding);
+    if (!image) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' has a format that no image plugin reads{}", file.string(),
                                 possible_formats(registry, FormatUse::read)));
     }
-    const bool decode = picture->is_encoded && encoding == ColorEncoding::srgb;
-    for (float& value : picture->values) {
+    const bool decode = image->is_encoded && encoding == ColorEncoding::srgb;
+    for (float& value : image->values) {
         if (!std::isfinite(value)) {
             throw Error(
                 ErrorCategory::failure,
@@ -33,7 +33,7 @@ EnvironmentMap read_environment(const std::filesystem::path& file, Registry& reg
         }
         value = std::max(decode ? srgb_to_linear(value) : value, 0.0f);
     }
-    return {picture->width, picture->height, std::move(picture->values)};
+    return {image->width, image->height, std::move(image->values)};
 }
 
 }  // namespace candela

@@ -63,14 +63,14 @@ class CANDELA_EXPORT MipMap {
 };
 
 /// A picture from a file.
-struct TexturePicture {
+struct TextureImage {
     std::shared_ptr<const MipMap> mip_map;
     bool was_clamped = false;  // it has intensities above 1, which no surface colour has
 };
 
 /// Reads a picture and makes its levels; 8-bit colours are decoded according to `encoding`. Throws Error if
 /// no image plugin supports the format, the file is unreadable, or memory is short.
-CANDELA_EXPORT TexturePicture read_texture(const std::filesystem::path& file, Registry& registry,
-                                           ColorEncoding encoding);
+CANDELA_EXPORT TextureImage read_texture(const std::filesystem::path& file, Registry& registry,
+                                         ColorEncoding encoding);
 
 }  // namespace candela

@@ -38,15 +38,15 @@ std::uint16_t quantized(float value) { return static_cast<std::uint16_t>(k_one *
 
 }  // namespace
 
-TexturePicture read_texture(const std::filesystem::path& file, Registry& registry, ColorEncoding encoding) {
-    const std::optional<DecodedPicture> picture = read_by_plugin(file, registry, encoding);
-    if (!picture) {
+TextureImage read_texture(const std::filesystem::path& file, Registry& registry, ColorEncoding encoding) {
+    const std::optional<DecodedImage> image = read_by_plugin(file, registry, encoding);
+    if (!image) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' has a format that no image plugin reads{}", file.string(),
                                 possible_formats(registry, FormatUse::read)));
     }
-    const auto width = static_cast<std::size_t>(picture->width),
-               height = static_cast<std::size_t>(picture->height);
+    const auto width = static_cast<std::size_t>(image->width),
+               height = static_cast<std::size_t>(image->height);
     constexpr std::size_t k_most_texels = std::size_t{1} << 30;
     if (width * height > k_most_texels) {
         throw Error(ErrorCategory::failure, fmt::format("'{}' has {} x {} pixels; a texture can have {}",
@@ -55,7 +55,7 @@ TexturePicture read_texture(const std::filesystem::path& file, Registry& registr
     constexpr std::size_t k_bytes = 4 * sizeof(std::uint16_t);
     require_memory(width * height * k_bytes * 4 / 3, fmt::format("the texture '{}'", file.string()));
 
-    const bool decodes = picture->is_encoded && encoding == ColorEncoding::srgb;
+    const bool decodes = image->is_encoded && encoding == ColorEncoding::srgb;
     const std::vector<std::uint16_t> table = decodes ? decoding_table() : std::vector<std::uint16_t>();
     MipMap::Texels texels(4 * width * height);
     std::atomic<bool> is_finite = true, was_clamped = false;
@@ -64,7 +64,7 @@ TexturePicture read_texture(const std::filesystem::path& file, Registry& registr
         bool finite = true, clamped = false;
         for (std::size_t i = begin * width; i < end * width; ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
-                const float value = picture->values[3 * i + c];
+                const float value = image->values[3 * i + c];
                 finite = finite && std::isfinite(value);
                 clamped = clamped || value > 1;
                 const std::uint16_t whole = quantized(value > 0 ? std::min(value, 1.0f) : 0.0f);
@@ -78,7 +78,7 @@ TexturePicture read_texture(const std::filesystem::path& file, Registry& registr
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' cannot be read as a picture: a pixel is non-finite", file.string()));
     }
-    return {std::make_shared<const MipMap>(picture->width, picture->height, std::move(texels)), was_clamped};
+    return {std::make_shared<const MipMap>(image->width, image->height, std::move(texels)), was_clamped};
 }
 
 }  // namespace candela

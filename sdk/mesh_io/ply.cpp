@@ -287,9 +287,9 @@ class Reader {
         const PropertyIndex uv = element.find({"texcoord"});
         if (uv && element.properties[*uv].is_list() && surface_.u.empty() && has_vertices_ && is_only_one)
             other.uv = uv;
-        if (other.uv) other.picture = scalar_of(element, {"texnumber"});
+        if (other.uv) other.image = scalar_of(element, {"texnumber"});
         for (const PropertyIndex place :
-             {other.color[0], other.color[1], other.color[2], other.uv, other.picture})
+             {other.color[0], other.color[1], other.color[2], other.uv, other.image})
             if (place) used.push_back(*place);
         note_others(element, used, "face");
         if constexpr (requires { values.go_to(0); }) {
@@ -317,7 +317,7 @@ class Reader {
                         throw BadFile("ends within its texture coordinates");
                     for (std::uint64_t k = 0; k < count; ++k)
                         coordinates.push_back(static_cast<float>(values.number(property.type)));
-                } else if (other.picture == p) {
+                } else if (other.image == p) {
                     if (values.number(property.type) > 0) ++faces_of_others;
                 } else {
                     skip(values, property);
@@ -342,7 +342,7 @@ class Reader {
     /// The properties that a face may have in addition to its corners.
     struct FaceProperties {
         std::array<PropertyIndex, 3> color{};
-        PropertyIndex uv, picture;
+        PropertyIndex uv, image;
     };
 
     void note_wedges(const Element& element, const FaceProperties& other, std::uint64_t without,

@@ -53,6 +53,6 @@ void write_whole(const std::filesystem::path& file, std::string_view content) {
     std::filesystem::rename(part, file);
 }
 
-std::string_view picture_file_source() { return candela_target_picture_file; }
+std::string_view image_file_source() { return candela_target_picture_file; }
 
 }  // namespace candela::target

@@ -144,13 +144,13 @@ void draw(const Scene& scene, int width, int height, const char* png) {
     window->AddRenderer(renderer);
     window->Render();
 
-    vtkNew<vtkWindowToImageFilter> picture;
-    picture->SetInput(window);
-    picture->SetInputBufferTypeToRGB();
-    picture->ReadFrontBufferOff();
-    picture->ShouldRerenderOff();
+    vtkNew<vtkWindowToImageFilter> image;
+    image->SetInput(window);
+    image->SetInputBufferTypeToRGB();
+    image->ReadFrontBufferOff();
+    image->ShouldRerenderOff();
     vtkNew<vtkPNGWriter> writer;
-    writer->SetInputConnection(picture->GetOutputPort());
+    writer->SetInputConnection(image->GetOutputPort());
     writer->SetFileName(png);
     writer->Write();
     if (writer->GetErrorCode() != 0) throw std::runtime_error("cannot write the picture");

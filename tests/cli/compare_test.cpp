@@ -59,15 +59,15 @@ struct Ppm {
 
 Ppm ppm_in(const fs::path& file) {
     const std::string text = read_file(file);
-    Ppm picture;
+    Ppm image;
     std::istringstream head(text);
     std::string magic;
     int largest = 0;
-    head >> magic >> picture.width >> picture.height >> largest;
+    head >> magic >> image.width >> image.height >> largest;
     REQUIRE(magic == "P6");
-    picture.pixels = text.substr(text.size() - 3 * static_cast<std::size_t>(picture.width) *
-                                                   static_cast<std::size_t>(picture.height));
-    return picture;
+    image.pixels = text.substr(text.size() - 3 * static_cast<std::size_t>(image.width) *
+                                                 static_cast<std::size_t>(image.height));
+    return image;
 }
 
 class Folder {
@@ -150,17 +150,17 @@ TEST_CASE("with --difference, a sheet shows how much each picture differs from t
                     "light.sun.intensity=1,0.5", "--difference", "--json", "-o", "sheet.ppm"});
     INFO(sound.err);
     REQUIRE(sound.exit_code == 0);
-    const Json pictures = Json::parse(sound.out)["pictures"];
-    REQUIRE(pictures.size() == 4);
-    CHECK_FALSE(pictures[0].contains("difference"));
-    CHECK(pictures[3]["settings"] == Json{{"reflection", "half-lambert"}, {"light.sun.intensity", "0.5"}});
-    CHECK(pictures[3]["column"] == 1);
-    CHECK(pictures[3]["row"] == 1);
+    const Json images = Json::parse(sound.out)["pictures"];
+    REQUIRE(images.size() == 4);
+    CHECK_FALSE(images[0].contains("difference"));
+    CHECK(images[3]["settings"] == Json{{"reflection", "half-lambert"}, {"light.sun.intensity", "0.5"}});
+    CHECK(images[3]["column"] == 1);
+    CHECK(images[3]["row"] == 1);
     // Lambert: 255 k_d cos 60 = 102. Half Lambert: 255 k_d (0.5 cos 60 + 0.5)^2 = 114.75, a byte of 115. Half
     // the light: 51 and 57.
-    CHECK(pictures[1]["difference"]["mean"].get<double>() == Approx(13));
-    CHECK(pictures[2]["difference"]["maximum"].get<double>() == Approx(51));
-    CHECK(pictures[3]["difference"]["rmse"].get<double>() == Approx(45).margin(1.01));
+    CHECK(images[1]["difference"]["mean"].get<double>() == Approx(13));
+    CHECK(images[2]["difference"]["maximum"].get<double>() == Approx(51));
+    CHECK(images[3]["difference"]["rmse"].get<double>() == Approx(45).margin(1.01));
     const Ppm sheet = ppm_in(folder / "sheet.ppm");
     // The largest difference is white.
     CHECK(static_cast<unsigned char>(

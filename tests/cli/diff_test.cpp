@@ -90,7 +90,7 @@ class Folder {
 };
 
 /// Three pixels that differ by nothing, by 3 and 4 levels, and by 12.
-Folder folder_with_pictures() {
+Folder folder_with_images() {
     Folder folder;
     folder.write("a.ppm", ppm(3, 1, {10, 20, 30, 100, 100, 100, 255, 0, 0}));
     folder.write("b.ppm", ppm(3, 1, {10, 20, 30, 103, 100, 96, 255, 0, 12}));
@@ -99,9 +99,9 @@ Folder folder_with_pictures() {
 }
 
 /// The pixels of a binary PPM.
-std::string pixels_of(const std::string& picture, const std::string& header) {
-    REQUIRE(picture.starts_with(header));
-    return picture.substr(header.size());
+std::string pixels_of(const std::string& image, const std::string& header) {
+    REQUIRE(image.starts_with(header));
+    return image.substr(header.size());
 }
 
 int brightness(const std::string& pixels, std::size_t pixel) {
@@ -113,7 +113,7 @@ int brightness(const std::string& pixels, std::size_t pixel) {
 }  // namespace
 
 TEST_CASE("identical pictures differ by nothing, and have no finite PSNR") {
-    const Folder folder = folder_with_pictures();
+    const Folder folder = folder_with_images();
     const CommandResult result = folder.diff({"a.ppm", "a.ppm", "--tolerance", "0"});
     CHECK(result.exit_code == 0);
     CHECK(result.err.empty());
@@ -135,7 +135,7 @@ TEST_CASE("identical pictures differ by nothing, and have no finite PSNR") {
 }
 
 TEST_CASE("the figures are those computed by hand") {
-    const Folder folder = folder_with_pictures();
+    const Folder folder = folder_with_images();
     const Json figures = folder.figures({"a.ppm", "b.ppm"});
     CHECK(figures["width"] == 3);
     CHECK(figures["height"] == 1);
@@ -151,7 +151,7 @@ TEST_CASE("the figures are those computed by hand") {
 }
 
 TEST_CASE("they are aligned for people to read") {
-    const Folder folder = folder_with_pictures();
+    const Folder folder = folder_with_images();
     const std::string text = folder.diff({"a.ppm", "b.ppm", "--mask", "mask.ppm"}).out;
     CHECK(
         text.starts_with("size                3 x 1\n"
@@ -168,7 +168,7 @@ TEST_CASE("they are aligned for people to read") {
 }
 
 TEST_CASE("pixels under the mask's white (above a half) are counted separately") {
-    const Folder folder = folder_with_pictures();
+    const Folder folder = folder_with_images();
     const Json figures = folder.figures({"a.ppm", "b.ppm", "--mask", "mask.ppm"});
     const Json& interior = figures["interior"];
     CHECK(interior["pixels"] == 2);
@@ -192,7 +192,7 @@ TEST_CASE("pixels under the mask's white (above a half) are counted separately")
 }
 
 TEST_CASE("beyond the tolerance, which ignores edges, the exit code is 4 and the figures are printed") {
-    const Folder folder = folder_with_pictures();
+    const Folder folder = folder_with_images();
     CHECK(folder.diff({"a.ppm", "b.ppm"}).exit_code == 0);
     CHECK(folder.diff({"a.ppm", "b.ppm", "--tolerance", "12"}).exit_code == 0);
     const CommandResult beyond = folder.diff({"a.ppm", "b.ppm", "--tolerance", "3.5"});
@@ -289,7 +289,7 @@ TEST_CASE("pictures of different sizes are an error that names both, and so is a
 }
 
 TEST_CASE("a file that is not a picture is an error with a reason") {
-    const Folder folder = folder_with_pictures();
+    const Folder folder = folder_with_images();
     CHECK(holds(folder.error({"a.ppm", "b.pmm"}, 1), "'b.pmm' does not exist; did you mean 'b.ppm'?"));
     CHECK(holds(folder.error({"none/a.ppm", "a.ppm"}, 1), "there is no folder 'none' either"));
     CHECK(holds(folder.error({".", "a.ppm"}, 1), "'.' is a directory; expected a picture file"));
@@ -312,7 +312,7 @@ TEST_CASE("a file that is not a picture is an error with a reason") {
 }
 
 TEST_CASE("wrong usage of candela diff is an error with a suggestion") {
-    const Folder folder = folder_with_pictures();
+    const Folder folder = folder_with_images();
     CHECK(holds(folder.error({}, 2), "needs two pictures"));
     CHECK(holds(folder.error({"a.ppm"}, 2), "needs two pictures"));
     CHECK(holds(folder.error({"a.ppm", "a.ppm", "a.ppm"}, 2), "too many arguments"));
@@ -325,7 +325,7 @@ TEST_CASE("wrong usage of candela diff is an error with a suggestion") {
 }
 
 TEST_CASE("candela diff never overwrites a picture or a mask that it reads") {
-    const Folder folder = folder_with_pictures();
+    const Folder folder = folder_with_images();
     const std::string before = read_file(folder / "b.ppm"), mask = read_file(folder / "mask.ppm");
     for (const char* const flag : {"--output", "--decoded"}) {
         INFO(flag);
@@ -367,7 +367,7 @@ TEST_CASE("the heat-map is black where nothing differs, and brightest at the lar
 }
 
 TEST_CASE("the heat-map is complete or not written") {
-    const Folder folder = folder_with_pictures();
+    const Folder folder = folder_with_images();
     // It is also written beyond the tolerance, when it is needed most.
     CHECK(folder.diff({"a.ppm", "b.ppm", "-o", "heat.png", "--tolerance", "0"}).exit_code == 4);
     CHECK(folder.figures({"heat.png", "heat.png"})["width"] == 3);

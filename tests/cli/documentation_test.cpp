@@ -208,8 +208,8 @@ TEST_CASE("the commands in the documentation can be run as printed") {
     };
     write_file(d / "ball.toml", block("README.md", "toml"));
     write_file(d / "velvet.kernel", block("docs/plugins/adding-a-model.md", "glsl"));
-    for (const char* const picture : {"a.png", "b.png", "before.png", "after.png", "before.exr", "after.exr"})
-        REQUIRE(run({"render", "-o", picture, "--width", "64", "--height", "64"}).exit_code == 0);
+    for (const char* const image : {"a.png", "b.png", "before.png", "after.png", "before.exr", "after.exr"})
+        REQUIRE(run({"render", "-o", image, "--width", "64", "--height", "64"}).exit_code == 0);
     std::vector<fs::path> pages{"README.md"};
     for (const fs::path folder : {"docs", "docs/user", "docs/plugins", "docs/internals"})
         for (const auto& entry : fs::directory_iterator(k_source / folder))

@@ -24,14 +24,14 @@ CommandResult render(const std::string& image, const fs::path& directory,
 }
 
 /// Four pixels: red to the left of the picture's middle, blue to the right.
-const std::string k_picture = std::string("P6\n4 1\n255\n") + "\xff" + std::string(2, '\0') + "\xff" +
-                              std::string(4, '\0') + "\xff" + std::string(2, '\0') + "\xff";
+const std::string k_image = std::string("P6\n4 1\n255\n") + "\xff" + std::string(2, '\0') + "\xff" +
+                            std::string(4, '\0') + "\xff" + std::string(2, '\0') + "\xff";
 
 }  // namespace
 
 TEST_CASE("an environment picture, relative to the scene's file, is visible around the object") {
     const fs::path d = scratch_directory();
-    write_file(d / "sky.ppm", k_picture);
+    write_file(d / "sky.ppm", k_image);
     const CommandResult result = render("environment = \"sky.ppm\"", d);
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
@@ -44,7 +44,7 @@ TEST_CASE("an environment picture, relative to the scene's file, is visible arou
 
 TEST_CASE("mistakes in the environment are reported at its place") {
     const fs::path d = scratch_directory();
-    write_file(d / "sky.ppm", k_picture);
+    write_file(d / "sky.ppm", k_image);
     expect(render("environment = \"sea.ppm\"", d), 3, {"scene.toml:5:15: error: 'sea.ppm' does not exist"});
     expect(render("environment = \".\"", d), 3, {"scene.toml:5:15: error: '.' is a directory, not a file"});
     expect(render("environment = 3", d), 3,
@@ -57,7 +57,7 @@ TEST_CASE("an environment that cannot be read as a picture is a failure that nam
     const fs::path d = scratch_directory();
     write_file(d / "sky.txt", "blue");
     write_file(d / "sky.png", "blue");
-    write_file(d / "short.ppm", k_picture.substr(0, 14));
+    write_file(d / "short.ppm", k_image.substr(0, 14));
     write_file(d / "sky.pfm",
                std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\xc0\x7f", 4) + std::string(8, '\0'));
     expect(

@@ -167,13 +167,13 @@ TEST_CASE("a picture, and a shape, that do not fit into memory are errors that s
 TEST_CASE("a library that does not fit into the address space causes a message") {
     if (k_has_shadow_memory) SKIP("sanitizers need more address space");
     const fs::path directory = scratch_directory();
-    const auto rendered = [&](rlim_t megabytes, const char* picture) {
+    const auto rendered = [&](rlim_t megabytes, const char* image) {
         CommandSetup setup;
         setup.prepare = [megabytes] {
             const rlimit room{megabytes << 20, megabytes << 20};
             ::setrlimit(RLIMIT_AS, &room);
         };
-        return run_candela({"render", "--threads", "1", "-o", (directory / picture).string()}, setup);
+        return run_candela({"render", "--threads", "1", "-o", (directory / image).string()}, setup);
     };
     CHECK(rendered(150, "a.png").exit_code == 0);
     // OpenImageIO and its 255 libraries take some 400 MB.

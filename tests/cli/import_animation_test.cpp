@@ -183,7 +183,7 @@ TEST_CASE("a node that turns about its own pivot looks like one resting at that 
     moving.animate(0, "rotation", {0, 0.5f, 1, 2}, turns_about_y({20, 140, 260, 320}));
     moving.write(folder, "moving");
     import(folder, "moving");
-    const auto picture = [&](const std::string& name, const std::string& scene, int frame) {
+    const auto image = [&](const std::string& name, const std::string& scene, int frame) {
         const CommandResult result = candela(folder, {"render",   scene,
                                                       "-o",       name,
                                                       "--frame",  std::to_string(frame),
@@ -203,8 +203,8 @@ TEST_CASE("a node that turns about its own pivot looks like one resting at that 
         const std::string name = "still" + std::to_string(frame);
         file_at(degrees == 190.0 ? 140 + 120 * (17.0 / 24 - 0.5) / 0.5 : degrees).write(folder, name);
         import(folder, name);
-        const std::string is = picture("is.ppm", "moving.toml", frame);
-        const std::string should = picture("should.ppm", name + ".toml", 0);
+        const std::string is = image("is.ppm", "moving.toml", frame);
+        const std::string should = image("should.ppm", name + ".toml", 0);
         INFO(frame);
         // Edges are off by hundredths of a pixel, so some samples there differ.
         CHECK(differing(is, should) < 200);

@@ -87,8 +87,8 @@ class File : public GltfFile {
     Json& pbr() { return material()["pbrMetallicRoughness"]; }
 
     /// A texture of its own.
-    Json texture(const std::string& picture) {
-        const std::size_t at = view(picture.data(), picture.size());
+    Json texture(const std::string& image) {
+        const std::size_t at = view(image.data(), image.size());
         json["images"].push_back({{"bufferView", at}, {"mimeType", "image/png"}});
         json["textures"].push_back({{"source", json["images"].size() - 1}});
         return {{"index", json["textures"].size() - 1}};
@@ -98,12 +98,12 @@ class File : public GltfFile {
 struct Imported {
     CommandResult result;
     std::string scene;
-    std::string picture;  // 80 x 60 pixels of three bytes
+    std::string image;  // 80 x 60 pixels of three bytes
 
     Pixel at(int x, int y) const {
         const auto i = 3 * static_cast<std::size_t>(80 * y + x);
-        return {static_cast<std::uint8_t>(picture[i]), static_cast<std::uint8_t>(picture[i + 1]),
-                static_cast<std::uint8_t>(picture[i + 2]), 255};
+        return {static_cast<std::uint8_t>(image[i]), static_cast<std::uint8_t>(image[i + 1]),
+                static_cast<std::uint8_t>(image[i + 2]), 255};
     }
     Pixel middle() const { return at(40, 30); }
 };
@@ -121,7 +121,7 @@ Imported import(File file) {
     CHECK(rendered.exit_code == 0);
     CHECK(rendered.err.find("warning") == std::string::npos);
     const std::string ppm = read_file(folder / "a.ppm");
-    imported.picture = ppm.substr(ppm.size() - std::size_t{3} * 80 * 60);
+    imported.image = ppm.substr(ppm.size() - std::size_t{3} * 80 * 60);
     return imported;
 }
 

@@ -86,7 +86,7 @@ Pixels read_ppm(const fs::path& file) {
 
 struct Rendered {
     CommandResult result;
-    Pixels picture;
+    Pixels image;
 };
 
 Rendered rendered(const fs::path& folder, const std::string& model,
@@ -96,7 +96,7 @@ Rendered rendered(const fs::path& folder, const std::string& model,
     Rendered result{candela(folder, words), {}};
     INFO(result.result.err);
     REQUIRE(result.result.exit_code == 0);
-    result.picture = read_ppm(folder / (model + ".ppm"));
+    result.image = read_ppm(folder / (model + ".ppm"));
     return result;
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("a library is found by its name on another system") {
         INFO(named.name);
         write_file(folder / "a.obj", square(named.name, "m"));
         const Rendered model = rendered(folder, "a.obj");
-        CHECK(is_red(model.picture.middle()));
+        CHECK(is_red(model.image.middle()));
         CHECK(holds(model.result.err, "is read from") == named.is_noted);
     }
     write_file(folder / "a.obj", square("no such.mtl", "m"));
@@ -138,7 +138,7 @@ TEST_CASE("a texture is found despite other capitals, with a note") {
     write_file(folder / "a.mtl", "newmtl m\nmap_Kd textures\\RED.PPM\n");
     write_file(folder / "a.obj", square("a.mtl", "m"));
     const Rendered model = rendered(folder, "a.obj");
-    CHECK(is_red(model.picture.middle()));
+    CHECK(is_red(model.image.middle()));
     CHECK(holds(model.result.err, "the texture 'textures\\RED.PPM' of material 'm' is read from 'Red.ppm'"));
 }
 
@@ -153,18 +153,18 @@ TEST_CASE("names in 8-bit encodings are found as bytes and as decoded text") {
     write_file(folder / "a.obj", square("gr\xfc\xdf"
                                         "e.mtl",
                                         "t\xfcr"));
-    CHECK(is_red(rendered(folder, "a.obj").picture.middle()));
+    CHECK(is_red(rendered(folder, "a.obj").image.middle()));
     // Shift-JIS, whose second bytes may be a backslash.
     write_file(folder / "\xe8\xa1\xa8.ppm", red_ppm());
     write_file(folder / "b.mtl", "newmtl m\nmap_Kd \x95\\.ppm\n");
     write_file(folder / "b.obj", square("b.mtl", "m"));
-    CHECK(is_red(rendered(folder, "b.obj").picture.middle()));
+    CHECK(is_red(rendered(folder, "b.obj").image.middle()));
     // The same bytes on the disk, which a scene cannot name: the picture is written next to it.
     fs::remove(folder / "h\xc3\xb6lzern.ppm");
     write_file(folder / "h\xf6lzern.ppm", red_ppm());
-    CHECK(is_red(rendered(folder, "a.obj").picture.middle()));
+    CHECK(is_red(rendered(folder, "a.obj").image.middle()));
     REQUIRE(candela(folder, {"import", "a.obj", "-o", "c.toml"}).exit_code == 0);
-    CHECK(is_red(rendered(folder, "c.toml").picture.middle()));
+    CHECK(is_red(rendered(folder, "c.toml").image.middle()));
 }
 
 TEST_CASE("materials whose names contain '#', tabs, blanks or a final backslash are distinguished") {
@@ -194,7 +194,7 @@ TEST_CASE("byte order marks of a model and its library are skipped") {
     const fs::path folder = scratch_directory();
     write_file(folder / "a.mtl", std::string("\xef\xbb\xbf") + k_red);
     write_file(folder / "a.obj", "\xef\xbb\xbf" + square("a.mtl", "m"));
-    CHECK(is_red(rendered(folder, "a.obj").picture.middle()));
+    CHECK(is_red(rendered(folder, "a.obj").image.middle()));
     write_file(folder / "a.mtl", std::string("\xff\xfen\0e\0w\0", 8));
     CHECK(holds(rendered(folder, "a.obj").result.err, "is left out: it is UTF-16"));
 }
@@ -214,9 +214,9 @@ TEST_CASE("an ambient colour of white, or none, becomes the surface's own: unlit
         write_file(folder / "a.obj", ball(1, {}, "mtllib a.mtl\nusemtl m\n"));
         const Rendered model = rendered(folder, "a.obj");
         int bleached = 0;
-        for (int y = 0; y < model.picture.height; ++y)
-            for (int x = 0; x < model.picture.width; ++x) {
-                const auto pixel = model.picture.at(x, y);
+        for (int y = 0; y < model.image.height; ++y)
+            for (int x = 0; x < model.image.width; ++x) {
+                const auto pixel = model.image.at(x, y);
                 bleached += pixel[1] > 70;  // the background's red is 43
             }
         CHECK(bleached == 0);
@@ -232,7 +232,7 @@ TEST_CASE("a texture's factor of zero becomes one") {
                "newmtl m\nillum 4\nKd 0.00 0.00 0.00\nKa 0 0 0\nTf 1 1 1\nmap_Kd red.ppm\n");
     write_file(folder / "a.obj", square("a.mtl", "m"));
     const Rendered model = rendered(folder, "a.obj");
-    CHECK(is_red(model.picture.middle()));
+    CHECK(is_red(model.image.middle()));
     CHECK_FALSE(holds(model.result.err, "transmission"));
 }
 
@@ -246,7 +246,7 @@ TEST_CASE("imported materials reflect no more than they receive, with one note, 
         write_file(folder / "a.mtl", fmt::format("newmtl m\n{0}newmtl n\n{0}", material));
         write_file(folder / "a.obj", ball(1, {}, "mtllib a.mtl\nusemtl m\n") + "usemtl n\nf 1 2 3\n");
         const Rendered model = rendered(folder, "a.obj");
-        CHECK(model.picture.burnt() < 0.05);
+        CHECK(model.image.burnt() < 0.05);
         CHECK_FALSE(holds(model.result.err, "more light than it receives"));
         const std::string note = "materials that reflect more light than they receive";
         CHECK(model.result.err.find(note) == model.result.err.rfind(note));
@@ -274,12 +274,12 @@ TEST_CASE("a picture's format follows from its content: a misnamed one is read, 
         INFO(name);
         write_file(folder / "a.mtl", fmt::format("newmtl m\nmap_Kd {}\n", name));
         const Rendered model = rendered(folder, "a.obj");
-        CHECK(is_red(model.picture.middle()));
+        CHECK(is_red(model.image.middle()));
         CHECK(holds(model.result.err, fmt::format("is read as {}, according to its content",
                                                   name == std::string("wrong.png") ? "jpg" : "png")));
         REQUIRE(candela(folder, {"import", "a.obj", "-o", "a.toml", "--force"}).exit_code == 0);
         const Rendered scene = rendered(folder, "a.toml");
-        CHECK(is_red(scene.picture.middle()));
+        CHECK(is_red(scene.image.middle()));
         CHECK_FALSE(holds(scene.result.err, "warning"));
     }
 }
@@ -295,7 +295,7 @@ TEST_CASE("a broken or empty picture becomes a note and a plain colour on import
         INFO(name);
         write_file(folder / "a.mtl", fmt::format("newmtl m\nKd 1 0 0\nmap_Kd {}\n", name));
         const Rendered model = rendered(folder, "a.obj");
-        CHECK(is_red(model.picture.middle()));
+        CHECK(is_red(model.image.middle()));
         CHECK(holds(model.result.err, fmt::format("the texture '{}' of material 'm' is left out: ", name)));
         write_file(folder / "a.toml",
                    fmt::format("version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
@@ -315,12 +315,12 @@ TEST_CASE("with --allow-outside a model may name files outside its folder; messa
     write_file(folder / "textures" / "a.mtl", "newmtl m\nmap_Kd red.ppm\n");
     write_file(folder / "models" / "a.obj", square("../textures/a.mtl", "m"));
     const Rendered refused = rendered(folder, "models/a.obj");
-    CHECK_FALSE(is_red(refused.picture.middle()));
+    CHECK_FALSE(is_red(refused.image.middle()));
     CHECK(holds(refused.result.err, "is outside the model's folder; --allow-outside reads it"));
-    CHECK(is_red(rendered(folder, "models/a.obj", {"--allow-outside"}).picture.middle()));
+    CHECK(is_red(rendered(folder, "models/a.obj", {"--allow-outside"}).image.middle()));
     REQUIRE(candela(folder, {"import", "models/a.obj", "--allow-outside", "-o", "scene.toml"}).exit_code ==
             0);
-    CHECK(is_red(rendered(folder, "scene.toml").picture.middle()));
+    CHECK(is_red(rendered(folder, "scene.toml").image.middle()));
     CHECK(candela(folder, {"check", "models/a.obj", "--allow-outside"}).exit_code == 0);
 
     const CommandResult scene = candela(folder, {"check", "scene.toml", "--allow-outside"});
@@ -342,7 +342,7 @@ TEST_CASE("with --allow-outside a model may name files outside its folder; messa
 TEST_CASE("a model far from its origin gives the same picture as at the origin") {
     const fs::path folder = scratch_directory();
     write_file(folder / "here.obj", ball(1, {0, 0, 0}));
-    const Pixels here = rendered(folder, "here.obj").picture;
+    const Pixels here = rendered(folder, "here.obj").image;
     for (const std::array<double, 3>& at : {std::array{500000.25, 4500000.75, 120.0},
                                             {4500000.0, 600000.0, 4400000.0},
                                             {0.0, -1000000.0, 0.0},
@@ -352,11 +352,11 @@ TEST_CASE("a model far from its origin gives the same picture as at the origin")
         write_file(folder / "far.obj", ball(1, at));
         const Rendered far = rendered(folder, "far.obj");
         CHECK(holds(far.result.err, "which is the scene's origin") == (at[0] != 150));
-        REQUIRE(far.picture.bytes.size() == here.bytes.size());
+        REQUIRE(far.image.bytes.size() == here.bytes.size());
         int most = 0;
         for (std::size_t i = 0; i < here.bytes.size(); ++i)
             most = std::max(most, std::abs(static_cast<unsigned char>(here.bytes[i]) -
-                                           static_cast<unsigned char>(far.picture.bytes[i])));
+                                           static_cast<unsigned char>(far.image.bytes[i])));
         CHECK(most <= 2);
     }
 }
@@ -365,16 +365,16 @@ TEST_CASE("a small model far from the origin is drawn, and its scene says where 
     const fs::path folder = scratch_directory();
     write_file(folder / "a.obj", ball(0.05, {500000.25, 4500000.75, 120}));
     const Rendered model = rendered(folder, "a.obj");
-    CHECK(model.picture.middle() != model.picture.at(0, 0));
+    CHECK(model.image.middle() != model.image.at(0, 0));
     REQUIRE(candela(folder, {"import", "a.obj", "-o", "a.toml"}).exit_code == 0);
     CHECK(holds(read_file(folder / "a.toml"), "origin              = \"500000.25 4500000.75 120\"\n"));
-    CHECK(rendered(folder, "a.toml").picture.bytes == model.picture.bytes);
+    CHECK(rendered(folder, "a.toml").image.bytes == model.image.bytes);
     // Also beyond a scene's largest coordinates, and with z up.
     write_file(folder / "b.obj", ball(20000, {6.4e9, 0, -6.4e9}));
-    CHECK(rendered(folder, "b.obj").picture.middle() != model.picture.at(0, 0));
+    CHECK(rendered(folder, "b.obj").image.middle() != model.image.at(0, 0));
     REQUIRE(candela(folder, {"import", "a.obj", "--up", "z", "-o", "z.toml"}).exit_code == 0);
     CHECK(holds(read_file(folder / "z.toml"), "origin              = \"500000.25 4500000.75 120\"\n"));
-    CHECK(rendered(folder, "z.toml").picture.middle() != model.picture.at(0, 0));
+    CHECK(rendered(folder, "z.toml").image.middle() != model.image.at(0, 0));
 }
 
 TEST_CASE("numbers of a scene are read back unchanged even if six digits are too few") {
@@ -399,7 +399,7 @@ TEST_CASE("the camera and lights of a glTF file far from the origin are moved wi
 "bufferViews": [{{"buffer": 0, "byteLength": 36}}], "buffers": [{{"byteLength": 36, "uri":
 "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})",
                                x, y, z));
-        return rendered(folder, name).picture;
+        return rendered(folder, name).image;
     };
     const Pixels here = scene_at("here.gltf", 0, 0, 0),
                  far = scene_at("far.gltf", 500000.25, 4500000.75, 120);

@@ -34,11 +34,11 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-std::vector<std::string> render_to(const fs::path& picture, const std::vector<std::string>& more = {}) {
+std::vector<std::string> render_to(const fs::path& image, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words = {CANDELA_TEST_COMMAND,
                                       "render",
                                       "-o",
-                                      picture.string(),
+                                      image.string(),
                                       "--width",
                                       "1500",
                                       "--height",
@@ -104,8 +104,8 @@ void refuse_files_without_names() {
 }
 
 /// The default scene, and a version of it that differs, as `extension`.
-struct TwoPictures {
-    TwoPictures(const fs::path& directory, const std::string& extension) {
+struct TwoImages {
+    TwoImages(const fs::path& directory, const std::string& extension) {
         const fs::path file = directory / ("picture." + extension);
         REQUIRE(run_program(render_to(file, {"--set", "object.cube.color=[40,90,235]"})).exit_code == 0);
         old_bytes = read_file(file);
@@ -131,17 +131,17 @@ void kill_a_hundred_times(const std::string& extension) {
     const fs::path scratch = scratch_directory();
     const fs::path directory = scratch / "pictures";
     fs::create_directory(directory);
-    const fs::path picture = directory / ("picture." + extension);
-    const TwoPictures two(scratch, extension);
+    const fs::path image = directory / ("picture." + extension);
+    const TwoImages two(scratch, extension);
     std::mt19937 random(20240611);
     int killed = 0, killed_writing = 0, finished = 0;
     // On a busy machine, more of them come too late.
     for (int i = 0; i < 100 || (killed_writing < 5 && i < 1000); ++i) {
         const bool replaces = i % 2 == 0;
         for (const fs::path& file : files_in(directory)) fs::remove(file);
-        if (replaces) write_file(picture, two.old_bytes);
+        if (replaces) write_file(image, two.old_bytes);
         const double part = std::uniform_real_distribution<double>(0, 1)(random);
-        RunningProgram program(render_to(picture));
+        RunningProgram program(render_to(image));
         bool is_writing = false;
         if (i % 4 < 2) {
             std::this_thread::sleep_for(Seconds(part * two.seconds));
@@ -156,7 +156,7 @@ void kill_a_hundred_times(const std::string& extension) {
         killed_writing += exit_code == 128 + SIGKILL && is_writing ? 1 : 0;
         finished += exit_code == 0 ? 1 : 0;
         INFO("trial " << i << ", exit code " << exit_code);
-        if (replaces || exit_code == 0) REQUIRE(fs::exists(picture));
+        if (replaces || exit_code == 0) REQUIRE(fs::exists(image));
         const std::vector<fs::path> files = files_in(directory);
         for (const fs::path& file : files) REQUIRE(two.is_whole(file));
         // Between two system calls, a complete new picture has a name next to the old one; nowhere else is
@@ -170,9 +170,9 @@ void kill_a_hundred_times(const std::string& extension) {
 }
 
 /// The old picture is untouched and alone.
-void check_only_old(const fs::path& picture, const std::string& old_bytes) {
-    CHECK((read_file(picture) == old_bytes));
-    CHECK(files_in(picture.parent_path()).size() == 1);
+void check_only_old(const fs::path& image, const std::string& old_bytes) {
+    CHECK((read_file(image) == old_bytes));
+    CHECK(files_in(image.parent_path()).size() == 1);
 }
 
 }  // namespace
@@ -187,17 +187,17 @@ TEST_CASE("killed at any moment, a PPM is the old one or the new one, never half
 
 TEST_CASE("killed at any moment, an EXR leaves nothing in the directory of temporary files") {
     const fs::path directory = scratch_directory();
-    const fs::path picture = directory / "pictures" / "picture.exr";
+    const fs::path image = directory / "pictures" / "picture.exr";
     const fs::path temporary = directory / "temporary";
-    fs::create_directory(picture.parent_path());
+    fs::create_directory(image.parent_path());
     fs::create_directory(temporary);
     const CommandSetup setup{.input = "", .environment = {{"TMPDIR", temporary.string()}}, .directory = {}};
-    REQUIRE(run_program(render_to(picture), setup).exit_code == 0);
+    REQUIRE(run_program(render_to(image), setup).exit_code == 0);
     int killed_writing = 0;
     for (int i = 0; i < 10; ++i) {
-        fs::remove(picture);
-        RunningProgram program(render_to(picture), setup);
-        const bool is_writing = wait_for_writing(program, picture.parent_path());
+        fs::remove(image);
+        RunningProgram program(render_to(image), setup);
+        const bool is_writing = wait_for_writing(program, image.parent_path());
         std::this_thread::sleep_for(std::chrono::milliseconds(5 * i));
         program.send(SIGKILL);
         killed_writing += program.wait().exit_code == 128 + SIGKILL && is_writing ? 1 : 0;
@@ -208,14 +208,14 @@ TEST_CASE("killed at any moment, an EXR leaves nothing in the directory of tempo
 
 TEST_CASE("SIGINT, SIGTERM and SIGHUP while a picture is written leave the old one, and nothing next to it") {
     const fs::path directory = scratch_directory();
-    const fs::path picture = directory / "picture.png";
+    const fs::path image = directory / "picture.png";
     for (const bool without_names : {true, false}) {
         int caught = 0;
         for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGINT, SIGTERM, SIGHUP}) {
-            write_file(picture, "old");
+            write_file(image, "old");
             CommandSetup setup;
             if (!without_names) setup.prepare = refuse_files_without_names;
-            RunningProgram program(render_to(picture), setup);
+            RunningProgram program(render_to(image), setup);
             wait_for_writing(program, directory);
             program.send(signal);
             const CommandResult result = program.wait();
@@ -223,7 +223,7 @@ TEST_CASE("SIGINT, SIGTERM and SIGHUP while a picture is written leave the old o
             REQUIRE((result.exit_code == 0 || result.exit_code == 128 + signal));
             CHECK(files_in(directory).size() == 1);
             if (result.exit_code == 0) continue;  // too late
-            CHECK(read_file(picture) == "old");
+            CHECK(read_file(image) == "old");
             ++caught;
         }
         CHECK(caught >= 1);
@@ -231,35 +231,35 @@ TEST_CASE("SIGINT, SIGTERM and SIGHUP while a picture is written leave the old o
 }
 
 TEST_CASE("an ignored SIGHUP (nohup) stays ignored") {
-    const fs::path picture = scratch_directory() / "picture.png";
+    const fs::path image = scratch_directory() / "picture.png";
     CommandSetup setup;
     setup.prepare = [] { ::signal(SIGHUP, SIG_IGN); };
-    RunningProgram program(render_to(picture), setup);
-    wait_for_writing(program, picture.parent_path());
+    RunningProgram program(render_to(image), setup);
+    wait_for_writing(program, image.parent_path());
     program.send(SIGHUP);
     CHECK(program.wait().exit_code == 0);
 }
 
 TEST_CASE("on a file system without unnamed files, pictures are complete and keep their permissions") {
     const fs::path directory = scratch_directory();
-    const fs::path picture = directory / "picture.png";
+    const fs::path image = directory / "picture.png";
     CommandSetup setup;
     setup.prepare = [] {
         ::umask(027);
         refuse_files_without_names();
     };
-    REQUIRE(run_program(render_to(picture), setup).exit_code == 0);
-    CHECK(static_cast<int>(fs::status(picture).permissions()) == 0640);
-    const std::string bytes = read_file(picture);
-    fs::permissions(picture, fs::perms::owner_read | fs::perms::owner_write);
-    REQUIRE(run_program(render_to(picture), setup).exit_code == 0);
-    CHECK(static_cast<int>(fs::status(picture).permissions()) == 0600);
-    check_only_old(picture, bytes);
+    REQUIRE(run_program(render_to(image), setup).exit_code == 0);
+    CHECK(static_cast<int>(fs::status(image).permissions()) == 0640);
+    const std::string bytes = read_file(image);
+    fs::permissions(image, fs::perms::owner_read | fs::perms::owner_write);
+    REQUIRE(run_program(render_to(image), setup).exit_code == 0);
+    CHECK(static_cast<int>(fs::status(image).permissions()) == 0600);
+    check_only_old(image, bytes);
 }
 
 TEST_CASE("a picture beyond the file size limit is an error, and the old one stays") {
     const fs::path directory = scratch_directory();
-    const fs::path picture = write_file(directory / "picture.ppm", "old");
+    const fs::path image = write_file(directory / "picture.ppm", "old");
     for (const bool without_names : {true, false}) {
         CommandSetup setup;
         setup.prepare = [without_names] {
@@ -267,11 +267,11 @@ TEST_CASE("a picture beyond the file size limit is an error, and the old one sta
             if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(125);
             if (!without_names) refuse_files_without_names();
         };
-        const CommandResult result = run_program(render_to(picture), setup);
+        const CommandResult result = run_program(render_to(image), setup);
         INFO(result.err);
         CHECK(result.exit_code == 1);
         CHECK(result.err.find("picture.ppm' cannot be written: File too large") != std::string::npos);
-        check_only_old(picture, "old");
+        check_only_old(image, "old");
     }
 }
 
@@ -279,7 +279,7 @@ TEST_CASE("a directory that cannot be written to is an error, and the old pictur
     // Somewhere that others may enter; the build folder may not be such a place.
     const fs::path directory = fs::temp_directory_path() / ("candela-test-" + std::to_string(::getpid()));
     fs::create_directory(directory);
-    const fs::path picture = write_file(directory / "picture.png", "old");
+    const fs::path image = write_file(directory / "picture.png", "old");
     fs::permissions(directory, fs::perms::owner_read | fs::perms::owner_exec | fs::perms::group_read |
                                    fs::perms::group_exec | fs::perms::others_read | fs::perms::others_exec);
     std::vector<std::string> as_nobody;
@@ -300,7 +300,7 @@ TEST_CASE("a directory that cannot be written to is an error, and the old pictur
         INFO(result.err);
         CHECK(result.exit_code == 1);
         CHECK(result.err.find("cannot be created: Permission denied") != std::string::npos);
-        check_only_old(picture, "old");
+        check_only_old(image, "old");
     }
     fs::permissions(directory,
                     fs::perms::owner_all);  // otherwise a user other than root could not clean it up

@@ -67,7 +67,7 @@ struct Workspace {
         if (!path.empty()) setup.environment.emplace_back("PATH", path);
         return run_candela(words, setup);
     }
-    std::string picture(const Words& words) const {
+    std::string image(const Words& words) const {
         Words all = words;
         all.insert(all.end(), {"-o", "picture.ppm"});
         fs::remove(directory / "picture.ppm");
@@ -88,15 +88,15 @@ TEST_CASE("a kernel file is a reflection model, in a scene and on the command li
     const Workspace place;
     write_file(place.directory / "lambert.toml",
                Workspace::scene("reflection = \"lambert\"\nmaterial = { kd = 0.35 }", "point"));
-    const std::string lambert = place.picture({"render", "lambert.toml"});
-    CHECK(place.picture({"render", "scene.toml"}) == lambert);
-    CHECK(place.picture({"render", "lambert.toml", "--reflection", "./half.kernel"}) == lambert);
-    CHECK(place.picture({"render", "scene.toml", "--set", "object.ball.material.kd=0.7"}) != lambert);
+    const std::string lambert = place.image({"render", "lambert.toml"});
+    CHECK(place.image({"render", "scene.toml"}) == lambert);
+    CHECK(place.image({"render", "lambert.toml", "--reflection", "./half.kernel"}) == lambert);
+    CHECK(place.image({"render", "scene.toml", "--set", "object.ball.material.kd=0.7"}) != lambert);
 
     // In a scene, the path is relative to the scene's file.
     write_file(place.directory / "below/scene.toml",
                Workspace::scene("reflection = \"../half.kernel\"", "point"));
-    CHECK(place.picture({"render", "below/scene.toml"}) == lambert);
+    CHECK(place.image({"render", "below/scene.toml"}) == lambert);
     const CommandResult printed = place.candela({"check", "scene.toml", "--print"});
     CHECK(holds(printed.out, "\"" + (place.directory / "half.kernel").string() + "\""));
 }
@@ -106,7 +106,7 @@ TEST_CASE("a kernel file is a light", "[kernel_files]") {
     write_file(place.directory / "point.toml",
                Workspace::scene("reflection = \"lambert\"", "point\"\nattenuation = \"none"));
     write_file(place.directory / "lamp.toml", Workspace::scene("reflection = \"lambert\"", "lamp.kernel"));
-    CHECK(place.picture({"render", "lamp.toml"}) == place.picture({"render", "point.toml"}));
+    CHECK(place.image({"render", "lamp.toml"}) == place.image({"render", "point.toml"}));
 }
 
 TEST_CASE("commands that take a model's name take a kernel file", "[kernel_files]") {
@@ -192,13 +192,13 @@ TEST_CASE("a kernel file that cannot be used says why", "[kernel_files]") {
 
 TEST_CASE("a kernel is compiled once, and again when its text has changed", "[kernel_files]") {
     const Workspace place;
-    const std::string first = place.picture({"render", "scene.toml"});
+    const std::string first = place.image({"render", "scene.toml"});
     // The second time, the cache has the plugin.
     const auto before = std::chrono::steady_clock::now();
-    CHECK(place.picture({"render", "scene.toml"}) == first);
+    CHECK(place.image({"render", "scene.toml"}) == first);
     CHECK(std::chrono::steady_clock::now() - before < std::chrono::seconds(30));
     std::string brighter = k_half;
     brighter.replace(brighter.find("= 0.35"), 6, "= 0.70");
     write_file(place.directory / "half.kernel", brighter);
-    CHECK(place.picture({"render", "scene.toml"}) != first);
+    CHECK(place.image({"render", "scene.toml"}) != first);
 }

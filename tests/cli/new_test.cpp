@@ -44,13 +44,13 @@ TEST_CASE("the picture of the new scene shows lit objects of several colours") {
     REQUIRE(render.exit_code == 0);
     constexpr std::size_t k_pixels = std::size_t{800} * 500;
     const std::string header = "P6\n800 500\n255\n";
-    const std::string picture = read_file(directory / "a.ppm");
-    REQUIRE(picture.starts_with(header));
-    REQUIRE(picture.size() == header.size() + 3 * k_pixels);
+    const std::string image = read_file(directory / "a.ppm");
+    REQUIRE(image.starts_with(header));
+    REQUIRE(image.size() == header.size() + 3 * k_pixels);
     std::set<std::string> colors;
     std::size_t background = 0, red = 0, bright = 0;
-    for (std::size_t i = header.size(); i < picture.size(); i += 3) {
-        const std::string pixel = picture.substr(i, 3);
+    for (std::size_t i = header.size(); i < image.size(); i += 3) {
+        const std::string pixel = image.substr(i, 3);
         const auto r = static_cast<unsigned char>(pixel[0]), g = static_cast<unsigned char>(pixel[1]),
                    b = static_cast<unsigned char>(pixel[2]);
         colors.insert(pixel);

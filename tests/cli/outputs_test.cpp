@@ -183,7 +183,7 @@ TEST_CASE("any existing file is kept with --no-clobber, before any work is done"
 
 TEST_CASE("import keeps existing pictures unless they are the same or --force is given") {
     const fs::path d = scratch_directory();
-    const std::string picture =
+    const std::string image =
         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
     write_file(
         d / "m.gltf",
@@ -191,7 +191,7 @@ TEST_CASE("import keeps existing pictures unless they are the same or --force is
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
     "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
     "textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,)" +
-            picture + R"("}],
+            image + R"("}],
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
                   {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
     "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],

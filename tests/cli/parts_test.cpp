@@ -36,22 +36,22 @@ void require(const CommandResult& result) {
 
 bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-void render_part(const fs::path& directory, const std::string& picture, const std::string& part) {
-    require(candela(directory, {"render", "scene.toml", "-o", picture, "--part", part}));
+void render_part(const fs::path& directory, const std::string& image, const std::string& part) {
+    require(candela(directory, {"render", "scene.toml", "-o", image, "--part", part}));
 }
 
 void check_parts_of(const std::string& extension) {
     const fs::path directory = with_scene();
-    const std::string picture = "poster." + extension, whole = "whole." + extension;
+    const std::string image = "poster." + extension, whole = "whole." + extension;
     require(candela(directory, {"render", "scene.toml", "-o", whole}));
     for (const int parts : {1, 3, 7}) {
         INFO(extension << ", " << parts << " parts");
         for (int i = parts; i >= 1; --i)
-            render_part(directory, picture, std::to_string(i) + "/" + std::to_string(parts));
-        require(candela(directory, {"assemble", picture}));
-        CHECK(read_file(directory / picture) == read_file(directory / whole));
-        CHECK_FALSE(fs::exists(directory / (picture + ".parts")));
-        fs::remove(directory / picture);
+            render_part(directory, image, std::to_string(i) + "/" + std::to_string(parts));
+        require(candela(directory, {"assemble", image}));
+        CHECK(read_file(directory / image) == read_file(directory / whole));
+        CHECK_FALSE(fs::exists(directory / (image + ".parts")));
+        fs::remove(directory / image);
     }
 }
 

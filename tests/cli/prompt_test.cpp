@@ -44,13 +44,13 @@ struct Files {
         : directory(scratch_directory()), scene_file(write_file(directory / "scene.toml", text).string()) {}
 
     std::vector<std::string> render(const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> words = {"render", scene_file, "-o", picture().string()};
+        std::vector<std::string> words = {"render", scene_file, "-o", image().string()};
         words.insert(words.end(), more.begin(), more.end());
         return words;
     }
-    fs::path picture() const { return directory / "a.png"; }
+    fs::path image() const { return directory / "a.png"; }
     /// Removes the picture; returns whether it existed.
-    bool take_picture() const { return fs::remove(picture()); }
+    bool take_image() const { return fs::remove(image()); }
 
     fs::path directory;
     std::string scene_file;
@@ -66,9 +66,9 @@ TEST_CASE("R13: without anybody to ask, the error names --defaults, which means 
     CHECK(holds(nobody.err, "the scene names no shading or reflection model"));
     CHECK(holds(nobody.err, "--defaults"));
     CHECK_FALSE(holds(nobody.err, "[Y/n]"));
-    CHECK_FALSE(files.take_picture());
+    CHECK_FALSE(files.take_image());
     CHECK(run_candela(files.render({"--defaults"})).exit_code == 0);
-    CHECK(files.take_picture());
+    CHECK(files.take_image());
 }
 
 TEST_CASE(
@@ -80,14 +80,14 @@ TEST_CASE(
         const CommandResult result = talk_to_candela(files.render(), {{k_both, yes}});
         CHECK(result.exit_code == 0);
         CHECK(count(result.out, "[Y/n]") == 1);
-        CHECK(files.take_picture());
+        CHECK(files.take_image());
     }
     for (const char* const no : {"n\n", "N\n", "no\n", "NO\n"}) {
         INFO("answer " << no);
         const CommandResult result = talk_to_candela(files.render(), {{k_both, no}});
         CHECK(result.exit_code == 3);
         CHECK(holds(result.out, "--shading and --reflection name others"));
-        CHECK_FALSE(files.take_picture());
+        CHECK_FALSE(files.take_image());
     }
 }
 
@@ -97,9 +97,9 @@ TEST_CASE("R13: the question is repeated after an invalid answer") {
     const CommandResult yes =
         talk_to_candela(files.render(), {{k_both, "perhaps\n"}, {again, "yn\n"}, {again, "y\n"}});
     CHECK(yes.exit_code == 0);
-    CHECK(files.take_picture());
+    CHECK(files.take_image());
     CHECK(talk_to_candela(files.render(), {{k_both, "perhaps\n"}, {again, "n\n"}}).exit_code == 3);
-    CHECK_FALSE(files.take_picture());
+    CHECK_FALSE(files.take_image());
 }
 
 TEST_CASE("R13: Ctrl-D means no, and Ctrl-C ends the command; neither makes a picture") {
@@ -107,9 +107,9 @@ TEST_CASE("R13: Ctrl-D means no, and Ctrl-C ends the command; neither makes a pi
     const CommandResult end = talk_to_candela(files.render(), {{k_both, "\x04"}});
     CHECK(end.exit_code == 3);
     CHECK(holds(end.out, "--defaults"));
-    CHECK_FALSE(files.take_picture());
+    CHECK_FALSE(files.take_image());
     CHECK(talk_to_candela(files.render(), {{k_both, "\x03"}}).exit_code == 128 + SIGINT);
-    CHECK_FALSE(files.take_picture());
+    CHECK_FALSE(files.take_image());
     CHECK(std::distance(fs::directory_iterator(files.directory), {}) == 1);
 }
 
@@ -127,7 +127,7 @@ TEST_CASE("R13: only the missing models are asked for") {
         INFO(result.out);
         CHECK(result.exit_code == 0);
         CHECK(count(result.out, "[Y/n]") == 1);
-        CHECK(files.take_picture());
+        CHECK(files.take_image());
     };
     const Files neither(scene(k_box));
     ask(neither, {"--shading", "flat"}, k_reflection);
@@ -147,7 +147,7 @@ TEST_CASE("R13: there is no question if nothing is missing or the answer is know
         INFO(result.out);
         CHECK(result.exit_code == 0);
         CHECK_FALSE(holds(result.out, "[Y/n]"));
-        CHECK(files.take_picture());
+        CHECK(files.take_image());
     };
     silent(Files(scene(k_box + named + k_ball + named)), {});
     silent(Files(scene(k_box)), {"--defaults"});
@@ -220,7 +220,7 @@ TEST_CASE("a long render shows its progress only on a terminal", "[whole]") {
     CHECK(holds(seen.out, "\rrendering ["));
     CHECK(holds(seen.out, " %"));
     // The bar is erased before the last line.
-    CHECK(holds(seen.out, "\r\x1b[K" + files.picture().string() + ": 1400 x 1400"));
+    CHECK(holds(seen.out, "\r\x1b[K" + files.image().string() + ": 1400 x 1400"));
     const CommandResult unseen = run_candela(words, slow);
     CHECK(unseen.exit_code == 0);
     CHECK_FALSE(holds(unseen.err, "rendering ["));

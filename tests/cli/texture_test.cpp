@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Four pixels of any colour.
-const std::string k_picture = "P6\n2 2\n255\nabcdefghijkl";
+const std::string k_image = "P6\n2 2\n255\nabcdefghijkl";
 
 CommandResult render(const std::string& texture, const fs::path& directory, const char* shape = "torus") {
     write_file(directory / "scene.toml",
@@ -32,7 +32,7 @@ CommandResult render(const std::string& texture, const fs::path& directory, cons
 
 TEST_CASE("mistakes in a texture are reported at its place") {
     const fs::path d = scratch_directory();
-    write_file(d / "wood.ppm", k_picture);
+    write_file(d / "wood.ppm", k_image);
     REQUIRE(::mkfifo((d / "pipe.ppm").c_str(), 0600) == 0);
     expect(render("color_texture = \"wool.ppm\"", d), 3,
            {"scene.toml:11:17: error: 'wool.ppm' does not exist", "did you mean 'wood.ppm'?"});
@@ -53,7 +53,7 @@ TEST_CASE("a texture that cannot be read as a picture is one failure that names 
     write_file(d / "wood.txt", "brown");
     write_file(d / "wood.png", "brown");
     write_file(d / "plain.ppm", "P3\n1 1\n255\n1 2 3\n");
-    write_file(d / "short.ppm", k_picture.substr(0, k_picture.size() - 1));
+    write_file(d / "short.ppm", k_image.substr(0, k_image.size() - 1));
     write_file(d / "none.pfm",
                std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\xc0\x7f", 4) + std::string(8, '\0'));
     REQUIRE(run_candela({"render", "--width=16", "--height=8", "-o", (d / "whole.png").string()}).exit_code ==

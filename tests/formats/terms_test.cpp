@@ -54,12 +54,12 @@ Layers read_layers(const fs::path& file) {
 
 Layers render_layers(const fs::path& folder, const std::string& scene, const std::string& terms) {
     const auto file = write_file(folder / "scene.toml", scene);
-    const auto picture = folder / "picture.exr";
+    const auto image = folder / "picture.exr";
     const CommandResult result =
-        run_candela({"render", file.string(), "-o", picture.string(), "--terms", terms, "--quiet"});
+        run_candela({"render", file.string(), "-o", image.string(), "--terms", terms, "--quiet"});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
-    return read_layers(picture);
+    return read_layers(image);
 }
 
 /// A cube's front face, one metre wide, half a metre in front of the origin, four metres from the observer.
@@ -218,10 +218,10 @@ TEST_CASE("terms add up to the picture, and so do lights, surroundings and backg
                         result += double{layers.at(name + "." + channel, x, y)};
                     return result;
                 };
-                const double picture = double{layers.at(channel, x, y)};
+                const double image = double{layers.at(channel, x, y)};
                 INFO(channel << " at " << x << ", " << y);
-                REQUIRE(sum(terms) == Approx(picture).margin(2e-6).epsilon(2e-6));
-                REQUIRE(sum(lights) == Approx(picture).margin(2e-6).epsilon(2e-6));
+                REQUIRE(sum(terms) == Approx(image).margin(2e-6).epsilon(2e-6));
+                REQUIRE(sum(lights) == Approx(image).margin(2e-6).epsilon(2e-6));
                 shown += double{layers.at("surroundings." + channel, x, y)};
             }
         }
@@ -269,16 +269,16 @@ TEST_CASE("terms of a format without layers are files next to the picture, mappe
 TEST_CASE("terms do not depend on the number of threads") {
     const auto folder = scratch_directory();
     const auto file = write_file(folder / "scene.toml", k_many);
-    std::vector<std::string> pictures;
+    std::vector<std::string> images;
     for (const char* const threads : {"1", "3"}) {
-        const auto picture = folder / (std::string(threads) + ".exr");
-        const CommandResult result = run_candela({"render", file.string(), "-o", picture.string(), "--terms",
+        const auto image = folder / (std::string(threads) + ".exr");
+        const CommandResult result = run_candela({"render", file.string(), "-o", image.string(), "--terms",
                                                   "all", "--threads", threads, "--quiet"});
         INFO(result.err);
         REQUIRE(result.exit_code == 0);
-        pictures.push_back(read_file(picture));
+        images.push_back(read_file(image));
     }
-    CHECK(pictures[0] == pictures[1]);
+    CHECK(images[0] == images[1]);
 }
 
 TEST_CASE("an unknown or unwritable term is an error that lists the possible ones, without a file") {
@@ -298,14 +298,14 @@ TEST_CASE("an unknown or unwritable term is an error that lists the possible one
         INFO(text);
         return text.find(part) != std::string::npos;
     };
-    const std::string picture = (folder / "a.png").string();
-    CHECK(holds(error("difuse", picture),
-                "--terms: unknown term 'difuse'; did you mean 'diffuse'?; possible: "));
-    CHECK(holds(error("light.son", picture), "unknown term 'light.son'; did you mean 'light.sun'?"));
-    CHECK(holds(error("diffuse,", picture), "unknown term ''"));
+    const std::string image = (folder / "a.png").string();
+    CHECK(
+        holds(error("difuse", image), "--terms: unknown term 'difuse'; did you mean 'diffuse'?; possible: "));
+    CHECK(holds(error("light.son", image), "unknown term 'light.son'; did you mean 'light.sun'?"));
+    CHECK(holds(error("diffuse,", image), "unknown term ''"));
     CHECK(holds(error("diffuse", "-"), "--terms writes layers, or files next to the picture"));
     std::string slashes = k_square;
     slashes.replace(slashes.find("\"sun\""), 5, "\"a/b\"");
     slashes.replace(slashes.find("\"sky\""), 5, "\"a b\"");
-    CHECK(holds(error("light", picture, slashes), "would both be written to"));
+    CHECK(holds(error("light", image, slashes), "would both be written to"));
 }

@@ -6,7 +6,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 
-#include "golden/picture.h"
+#include "golden/image.h"
 #include "support/command.h"
 
 namespace {
@@ -23,7 +23,7 @@ struct Brushed {
 /// The highlight of a sphere turned by `rotation` degrees about the line of sight, -z, with the light behind
 /// the observer.
 Spread spread(const std::filesystem::path& directory, const Brushed& surface, int rotation = 0) {
-    const Picture picture = render_floats(
+    const Image image = render_floats(
         directory,
         fmt::format("[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nprojection = "
                     "\"orthographic\"\nheight = 1.2\n"
@@ -34,10 +34,10 @@ Spread spread(const std::filesystem::path& directory, const Brushed& surface, in
                     "[object.material]\nka = 0\nkd = 0\nks = 1\n{}",
                     surface.model, rotation, surface.material));
     double sum = 0, xx = 0, yy = 0;
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
-            const Double3 p = orthographic_point(picture, x, y, 1.2);
-            const auto i = static_cast<double>(picture.at(x, y).y);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const Double3 p = orthographic_point(image, x, y, 1.2);
+            const auto i = static_cast<double>(image.at(x, y).y);
             sum += i;
             xx += i * p.x * p.x;
             yy += i * p.y * p.y;
@@ -97,7 +97,7 @@ TEST_CASE(
                 "[object.material]\nka = 0\nkd = 0\nks = 1\nroughness_u = 0.3\nroughness_v = {}\n",
                 shading, file, roughness_v));
     };
-    const auto difference = [](const Picture& a, const Picture& b) {
+    const auto difference = [](const Image& a, const Image& b) {
         float largest = 0, brightest = 0;
         for (std::size_t i = 0; i < a.rgb.size(); ++i) {
             largest = std::max(largest, std::abs(a.rgb[i] - b.rgb[i]));

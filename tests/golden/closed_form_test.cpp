@@ -10,7 +10,7 @@
 #include <set>
 #include <tuple>
 
-#include "golden/picture.h"
+#include "golden/image.h"
 #include "support/command.h"
 
 namespace {
@@ -65,17 +65,16 @@ std::optional<Double3> hit(const Triangle& t, Double3 origin, Double3 direction,
 Double3 mix(const std::array<Double3, 3>& v, Double3 b) { return b.x * v[0] + b.y * v[1] + b.z * v[2]; }
 
 /// Compares all pixels for which `expected` has a value; returns their number.
-int compare(const Picture& picture, double relative, double absolute,
+int compare(const Image& image, double relative, double absolute,
             const std::function<std::optional<Double3>(int, int)>& expected) {
     int compared = 0;
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
             const auto value = expected(x, y);
             if (!value) continue;
             ++compared;
-            INFO("pixel " << x << ", " << y << ": " << text(picture.at(x, y)) << ", expected "
-                          << text(*value));
-            REQUIRE(agree(picture.at(x, y), *value, relative, absolute));
+            INFO("pixel " << x << ", " << y << ": " << text(image.at(x, y)) << ", expected " << text(*value));
+            REQUIRE(agree(image.at(x, y), *value, relative, absolute));
         }
     }
     return compared;
@@ -95,15 +94,15 @@ constexpr Double3 k_color{1, 0.8, 0.4};
 }  // namespace
 
 TEST_CASE("an orthographic Lambert sphere under a directional light is k_d max(N.L, 0) of the true sphere") {
-    const Picture picture = render_floats(
+    const Image image = render_floats(
         scratch_directory(),
         orthographic_view(256, 1.2) + models("phong", "lambert") +
             "[[light]]\ntype = \"directional\"\ndirection = [-1, -2, -2]\n"
             "[[object]]\ntype = \"sphere\"\nradius = 0.5\nsegments = 1024\ncolor = [255, 255, 255]\n"
             "[object.material]\nka = 0\nkd = 0.8\n");
     const Double3 light = unit({1, 2, 2});
-    const int compared = compare(picture, 0, 1e-3, [&](int x, int y) -> std::optional<Double3> {
-        const Double3 p = orthographic_point(picture, x, y, 1.2);
+    const int compared = compare(image, 0, 1e-3, [&](int x, int y) -> std::optional<Double3> {
+        const Double3 p = orthographic_point(image, x, y, 1.2);
         const double r2 = p.x * p.x + p.y * p.y;
         if (r2 > 0.495 * 0.495) return std::nullopt;  // the silhouette itself is the mesh's
         const Double3 n = 2.0 * Double3{p.x, p.y, std::sqrt(0.25 - r2)};
@@ -114,13 +113,13 @@ TEST_CASE("an orthographic Lambert sphere under a directional light is k_d max(N
 }
 
 TEST_CASE("a cube's face under a point light follows 1/r^2") {
-    const Picture picture = render_floats(
+    const Image image = render_floats(
         scratch_directory(), orthographic_view(200, 2) + models("phong", "lambert") +
                                  "[[light]]\ntype = \"point\"\nposition = [0.4, -0.3, 2.5]\nintensity = 3\n"
                                  "[[object]]\ntype = \"cube\"\nsize = 2\ncolor = [255, 255, 255]\n"
                                  "[object.material]\nka = 0\nkd = 1\n");
-    const int compared = compare(picture, 1e-4, 0, [&](int x, int y) -> std::optional<Double3> {
-        Double3 p = orthographic_point(picture, x, y, 2);
+    const int compared = compare(image, 1e-4, 0, [&](int x, int y) -> std::optional<Double3> {
+        Double3 p = orthographic_point(image, x, y, 2);
         p.z = 1;
         const Double3 d = Double3{0.4, -0.3, 2.5} - p;
         const double i = 3 * unit(d).z / dot(d, d);
@@ -142,32 +141,32 @@ TEST_CASE("a Gouraud triangle is the barycentric mix of its vertices' colours, i
                              "[[light]]\ntype = \"point\"\nposition = [1, 1.5, 3]\nintensity = 4\n" +
                              mesh_object("ka = 0\nkd = 0.9");
     SECTION("orthographic") {
-        const Picture picture = render_floats(directory, orthographic_view(160, 3) + rest);
-        CHECK(compare(picture, 1e-5, 1e-5, [&](int x, int y) -> std::optional<Double3> {
-                  Double3 origin = orthographic_point(picture, x, y, 3);
+        const Image image = render_floats(directory, orthographic_view(160, 3) + rest);
+        CHECK(compare(image, 1e-5, 1e-5, [&](int x, int y) -> std::optional<Double3> {
+                  Double3 origin = orthographic_point(image, x, y, 3);
                   origin.z = 4;
                   const auto b = hit(k_triangle, origin, {0, 0, -1}, 0.01);
                   return b ? std::optional(mix(at_vertex, *b)) : std::nullopt;
               }) > 4000);
     }
     SECTION("perspective") {
-        const Picture picture = render_floats(directory, perspective_view(200, 160, 40) + rest);
-        CHECK(compare(picture, 1e-5, 1e-5, [&](int x, int y) -> std::optional<Double3> {
-                  const auto b = hit(k_triangle, k_eye, perspective_ray(picture, x, y, 40), 0.01);
+        const Image image = render_floats(directory, perspective_view(200, 160, 40) + rest);
+        CHECK(compare(image, 1e-5, 1e-5, [&](int x, int y) -> std::optional<Double3> {
+                  const auto b = hit(k_triangle, k_eye, perspective_ray(image, x, y, 40), 0.01);
                   return b ? std::optional(mix(at_vertex, *b)) : std::nullopt;
               }) > 4000);
     }
 }
 
 TEST_CASE("a flat face is constant to the bit: a cube shows one colour per visible triangle") {
-    const Picture picture = render_floats(
+    const Image image = render_floats(
         scratch_directory(), perspective_view(200, 200, 30) + models("flat", "phong") +
                                  "[[light]]\ntype = \"point\"\nposition = [1.2, 1.6, 3]\nintensity = 9\n"
                                  "[[object]]\ntype = \"cube\"\nrotation = [30, 40, 0]\n");
     std::set<std::tuple<float, float, float>> colors;
-    for (int y = 0; y < picture.height; ++y) {
-        for (int x = 0; x < picture.width; ++x) {
-            const candela::Vec3 c = picture.at(x, y);
+    for (int y = 0; y < image.height; ++y) {
+        for (int x = 0; x < image.width; ++x) {
+            const candela::Vec3 c = image.at(x, y);
             colors.emplace(c.x, c.y, c.z);
         }
     }
@@ -181,15 +180,15 @@ TEST_CASE("Phong and Blinn-Phong highlights match a per-pixel evaluation in doub
     for (const bool blinn : {false, true}) {
         for (const double shininess : {5.0, 60.0}) {
             INFO((blinn ? "Blinn-Phong" : "Phong") << ", shininess " << shininess);
-            const Picture picture = render_floats(
+            const Image image = render_floats(
                 directory,
                 perspective_view(240, 200, 40) + models("phong", blinn ? "blinn-phong" : "phong") +
                     "[[light]]\ntype = \"point\"\nposition = [0.7, 0.9, 2.6]\nintensity = 2\n"
                     "[[light]]\ntype = \"ambient\"\ncolor = [51, 51, 51]\n" +
                     mesh_object(
                         fmt::format("ka = 0.5\nkd = 0.3\nks = 0.7\nshininess = {}", shininess).c_str()));
-            const int compared = compare(picture, 1e-4, 1e-5, [&](int x, int y) -> std::optional<Double3> {
-                const Double3 ray = perspective_ray(picture, x, y, 40);
+            const int compared = compare(image, 1e-4, 1e-5, [&](int x, int y) -> std::optional<Double3> {
+                const Double3 ray = perspective_ray(image, x, y, 40);
                 const auto b = hit(k_triangle, k_eye, ray, 0.01);
                 if (!b) return std::nullopt;
                 const Double3 p = mix(k_triangle.p, *b);
@@ -216,10 +215,10 @@ TEST_CASE("seen from behind, an open surface is lit on the visible side") {
                               "[[light]]\ntype = \"directional\"\ndirection = [0, 0, 1]\n" +
                               mesh_object("ka = 0\nkd = 1");
     // The light travels along +z, so it falls on the side away from the observer at +z …
-    const Picture front = render_floats(directory, orthographic_view(64, 3) + scene);
+    const Image front = render_floats(directory, orthographic_view(64, 3) + scene);
     CHECK(front.at(32, 32) == candela::Vec3{0, 0, 0});
     // … and on the side that an observer at -z sees.
-    const Picture back =
+    const Image back =
         render_floats(directory, orthographic_view(64, 3) + scene, {"--set", "observer.position=[0,0,-4]"});
     CHECK(back.at(32, 32).x > 0.7f);
 }

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-using candela::embedding::BytePicture;
-using candela::embedding::FloatPicture;
+using candela::embedding::ByteImage;
+using candela::embedding::FloatImage;
 using candela::embedding::Scene;
 
 namespace {
@@ -37,9 +37,9 @@ color = [255, 255, 255]
 Scene ball() { return Scene::from_text(k_ball, "ball.toml", with_plugins()); }
 
 /// The red value at the centre.
-template <typename Picture>
-auto centre_of(const Picture& picture) {
-    return picture.rgb[3 * static_cast<std::size_t>(picture.height / 2 * picture.width + picture.width / 2)];
+template <typename Image>
+auto centre_of(const Image& image) {
+    return image.rgb[3 * static_cast<std::size_t>(image.height / 2 * image.width + image.width / 2)];
 }
 
 std::optional<candela::embedding::Error> error_of(const std::string& text) {
@@ -56,8 +56,8 @@ std::optional<candela::embedding::Error> error_of(const std::string& text) {
 TEST_CASE("embedding: a picture in memory is the core's, in bytes and in floats") {
     Scene scene = ball();
     CHECK(scene.warnings().empty());
-    const BytePicture bytes = scene.render();
-    const FloatPicture floats = scene.render_floats();
+    const ByteImage bytes = scene.render();
+    const FloatImage floats = scene.render_floats();
     REQUIRE(bytes.width == 64);
     REQUIRE(bytes.height == 48);
     REQUIRE(bytes.rgb.size() == std::size_t{64} * 48 * 3);
@@ -110,11 +110,11 @@ TEST_CASE("embedding: the default scene needs no file, and progress is reported 
         whole = all;
     };
     Scene scene({}, options);
-    const BytePicture picture = scene.render();
-    CHECK(picture.width == scene.width());
-    CHECK(picture.height == scene.height());
+    const ByteImage image = scene.render();
+    CHECK(image.width == scene.width());
+    CHECK(image.height == scene.height());
     CHECK(whole > 0);
     CHECK(last == whole);
     Scene moved = std::move(scene);
-    CHECK(moved.render().rgb == picture.rgb);
+    CHECK(moved.render().rgb == image.rgb);
 }

@@ -37,7 +37,7 @@ reflection = "lambert"
 )";
 }
 
-candela::Film picture_of(const candela::RenderScene& scene, candela::PixelType pixels) {
+candela::Film image_of(const candela::RenderScene& scene, candela::PixelType pixels) {
     candela::Film film(scene.image.width, scene.image.height, pixels, scene.image.color_management);
     candela::render(scene, film, {});
     return film;
@@ -54,7 +54,7 @@ TEST_CASE("a film of some rows gets the whole picture's content there") {
     for (const int samples : {1, 8}) {
         const Compiled render_scene = compiled(scene_of(203, 331, samples));
         const candela::RenderScene& scene = render_scene.scene;
-        const candela::Film whole = picture_of(scene, candela::PixelType::real);
+        const candela::Film whole = image_of(scene, candela::PixelType::real);
         // At tile borders and within tiles.
         for (const candela::RowRange rows :
              {candela::RowRange{0, 64}, {64, 192}, {13, 14}, {50, 331}, {320, 331}}) {
@@ -76,12 +76,12 @@ TEST_CASE("rows requested in any number are those of the picture, across several
     // A band has 64 MB: 320 of these rows.
     const Compiled render_scene = compiled(scene_of(65536, 700));
     const candela::RenderScene& scene = render_scene.scene;
-    const candela::Film whole = picture_of(scene, candela::PixelType::byte);
+    const candela::Film whole = image_of(scene, candela::PixelType::byte);
     for (const int count : {1, 64, 321, 5000}) {
         candela::RenderedRows rows(scene, candela::PixelType::byte, {100, 700}, {});
         std::size_t done = 100;
         while (done < 700) {
-            const candela::PictureView some = rows.next(count);
+            const candela::ImageView some = rows.next(count);
             REQUIRE(some.height == std::min<int>(count, 700 - static_cast<int>(done)));
             REQUIRE(are_equal(some.bytes, whole.view().bytes, 3 * 65536 * done));
             done += static_cast<std::size_t>(some.height);

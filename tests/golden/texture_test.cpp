@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "golden/picture.h"
+#include "golden/image.h"
 #include "support/command.h"
 
 namespace {
@@ -38,8 +38,8 @@ std::string scene(int size, const std::string& object, const char* color_managem
         size, object, color_management);
 }
 
-Picture textured(const std::string& texture, int size, const std::string& more = "",
-                 const char* color_management = "none") {
+Image textured(const std::string& texture, int size, const std::string& more = "",
+               const char* color_management = "none") {
     const auto folder = scratch_directory();
     write_file(folder / "square.obj", k_square);
     write_file(folder / "texture.ppm", texture);
@@ -53,18 +53,18 @@ bool is_about(float value, double expected) { return std::abs(static_cast<double
 TEST_CASE("golden: a texture whose texels are pixels is shown unchanged") {
     std::vector<int> texels;
     for (int i = 0; i < 64; ++i) texels.push_back(4 * i);
-    const Picture picture = textured(grey_ppm(8, 8, texels), 8);
+    const Image image = textured(grey_ppm(8, 8, texels), 8);
     for (int y = 0; y < 8; ++y) {
         for (int x = 0; x < 8; ++x) {
             INFO("pixel " << x << ", " << y);
-            CHECK(is_about(picture.at(x, y).x, 4.0 * (8 * y + x) / 255));
+            CHECK(is_about(image.at(x, y).x, 4.0 * (8 * y + x) / 255));
         }
     }
 }
 
 TEST_CASE("golden: a magnified checkerboard is bilinear between the centres of its texels") {
     // Two by two texels on 32 pixels: a texel is 16 wide, and the picture repeats around it.
-    const Picture picture = textured(grey_ppm(2, 2, {255, 0, 0, 255}), 32);
+    const Image image = textured(grey_ppm(2, 2, {255, 0, 0, 255}), 32);
     const auto white_across = [](int pixel) {
         // The share of column 0 at the pixel's centre: 1 at the centre of column 0 (8), 0 at that of column 1
         // (24).
@@ -75,7 +75,7 @@ TEST_CASE("golden: a magnified checkerboard is bilinear between the centres of i
         for (int x = 0; x < 32; ++x) {
             const double a = white_across(x), b = white_across(y);
             INFO("pixel " << x << ", " << y);
-            REQUIRE(is_about(picture.at(x, y).x, a * b + (1 - a) * (1 - b)));
+            REQUIRE(is_about(image.at(x, y).x, a * b + (1 - a) * (1 - b)));
         }
     }
 }
@@ -84,26 +84,26 @@ TEST_CASE("golden: a checkerboard finer than the pixels is shown as its mean") {
     std::vector<int> texels;
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) texels.push_back((x + y) % 2 == 0 ? 255 : 0);
-    const Picture picture = textured(grey_ppm(64, 64, texels), 16);
+    const Image image = textured(grey_ppm(64, 64, texels), 16);
     for (int y = 0; y < 16; ++y)
-        for (int x = 0; x < 16; ++x) REQUIRE(is_about(picture.at(x, y).x, 0.5));
+        for (int x = 0; x < 16; ++x) REQUIRE(is_about(image.at(x, y).x, 0.5));
 }
 
 TEST_CASE("golden: a minified ramp shows the means of the texels in each pixel") {
     std::vector<int> texels;
     for (int y = 0; y < 64; ++y)
         for (int x = 0; x < 64; ++x) texels.push_back(4 * x);
-    const Picture picture = textured(grey_ppm(64, 64, texels), 16);
+    const Image image = textured(grey_ppm(64, 64, texels), 16);
     // Four texels per pixel: 4 (4x + 1.5) / 255.
-    for (int x = 0; x < 16; ++x) REQUIRE(is_about(picture.at(x, 7).x, 4 * (4 * x + 1.5) / 255));
+    for (int x = 0; x < 16; ++x) REQUIRE(is_about(image.at(x, 7).x, 4 * (4 * x + 1.5) / 255));
 }
 
 TEST_CASE("golden: the colours of a texture are decoded like those of objects") {
     // 188 is 0.502886 in linear light (IEC 61966-2-1).
-    const Picture picture = textured(grey_ppm(1, 1, {188}), 4, "", "srgb");
-    CHECK(is_about(picture.at(2, 2).x, std::pow((188.0 / 255 + 0.055) / 1.055, 2.4)));
+    const Image image = textured(grey_ppm(1, 1, {188}), 4, "", "srgb");
+    CHECK(is_about(image.at(2, 2).x, std::pow((188.0 / 255 + 0.055) / 1.055, 2.4)));
     SECTION("and multiplied by the object's") {
-        const Picture product = textured(grey_ppm(1, 1, {188}), 4, "", "none");
+        const Image product = textured(grey_ppm(1, 1, {188}), 4, "", "none");
         CHECK(is_about(product.at(2, 2).x, 188.0 / 255));
     }
 }
@@ -117,7 +117,7 @@ TEST_CASE("golden: in perspective the mip level follows the footprint of the pix
         "v -100 0 100\nv 100 0 100\nv 100 0 -100\nv -100 0 -100\nvt 0 0\nvt 200 0\nvt 200 200\nvt 0 200\n"
         "vn 0 1 0\nf 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n");
     write_file(folder / "texture.ppm", grey_ppm(2, 2, {255, 0, 0, 255}));
-    const Picture picture = render_floats(
+    const Image image = render_floats(
         folder,
         "[room]\nwidth = 300\nheight = 300\ndepth = 300\n"
         "[observer]\nposition = [0, 1, 90]\nlook_at = [0, 1, 0]\nfov = 60\n"
@@ -128,8 +128,8 @@ TEST_CASE("golden: in perspective the mip level follows the footprint of the pix
     const auto contrast = [&](int row) {
         float low = 1, high = 0;
         for (int x = 60; x < 140; ++x) {
-            low = std::min(low, picture.at(x, row).x);
-            high = std::max(high, picture.at(x, row).x);
+            low = std::min(low, image.at(x, row).x);
+            high = std::max(high, image.at(x, row).x);
         }
         return high - low;
     };
@@ -138,7 +138,7 @@ TEST_CASE("golden: in perspective the mip level follows the footprint of the pix
     // One pixel below the horizon is 173 metres away, beyond the floor; at five pixels, 35 metres: a pixel
     // covers seven metres along the view, fourteen squares.
     CHECK(contrast(105) < 0.02f);
-    CHECK(is_about(picture.at(100, 105).x, 0.5));
+    CHECK(is_about(image.at(100, 105).x, 0.5));
 }
 
 TEST_CASE(
@@ -173,11 +173,11 @@ TEST_CASE(
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 3; ++x) texels.push_back(100 * x + 20 * y);
     // The centroid of the lower right triangle is (2/3, 1/3): halfway between texels 1 and 2.
-    const Picture flat =
+    const Image flat =
         textured(grey_ppm(3, 3, texels), 8, "shading = \"flat\"\ncolor_texture_wrap = \"clamp\"");
     CHECK(is_about(flat.at(6, 6).x, (100 * 1.5 + 20 * 1.5) / 255));
     CHECK(is_about(flat.at(3, 7).x, (100 * 1.5 + 20 * 1.5) / 255));
-    const Picture gouraud =
+    const Image gouraud =
         textured(grey_ppm(3, 3, texels), 8, "shading = \"gouraud\"\ncolor_texture_wrap = \"clamp\"");
     // Corner values 0 (top left), 200 (top right), 40 (bottom left), 240 (bottom right): linear over the
     // square.

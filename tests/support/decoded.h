@@ -10,7 +10,7 @@
 
 #include "support/plugins.h"
 
-class Decoded final : public candela::PictureSink {
+class Decoded final : public candela::ImageSink {
   public:
     std::span<float> allocate(int its_width, int its_height, bool encoded) override {
         width = its_width;
@@ -26,9 +26,9 @@ class Decoded final : public candela::PictureSink {
 };
 
 inline Decoded read_by(const char* plugin, const std::filesystem::path& file) {
-    Decoded picture;
-    instance<candela::ImageFormat>(plugin)->read(file.c_str(), picture);
-    return picture;
+    Decoded image;
+    instance<candela::ImageFormat>(plugin)->read(file.c_str(), image);
+    return image;
 }
 
 /// The plugin's error message for a file; empty if it reads the file.

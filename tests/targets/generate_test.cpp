@@ -159,20 +159,20 @@ TEST_CASE("generate: --models adds models, and the C++ program switches to them"
     generate({"--target", "cpp", "-o", directory.string(), "--models", "half-lambert,shading/flat,ggx",
               "--width", "64", "--height", "64"});
     require_compiles({"g++"}, directory / "scene.cpp", directory / "scene");
-    const auto picture = [&](const std::vector<std::string>& models) {
+    const auto image = [&](const std::vector<std::string>& models) {
         std::vector<std::string> words{(directory / "scene").string(), (directory / "scene.ppm").string()};
         words.insert(words.end(), models.begin(), models.end());
         REQUIRE(run_program(words).exit_code == 0);
         return read_file(directory / "scene.ppm");
     };
-    const std::string own = picture({});
-    const bool same = picture({"phong", "phong"}) == own;
+    const std::string own = image({});
+    const bool same = image({"phong", "phong"}) == own;
     CHECK(same);
-    const bool other_reflection = picture({"phong", "half-lambert"}) != own;
+    const bool other_reflection = image({"phong", "half-lambert"}) != own;
     CHECK(other_reflection);
-    const bool third_reflection = picture({"phong", "ggx"}) != picture({"phong", "half-lambert"});
+    const bool third_reflection = image({"phong", "ggx"}) != image({"phong", "half-lambert"});
     CHECK(third_reflection);
-    const bool other_shading = picture({"flat"}) != own;
+    const bool other_shading = image({"flat"}) != own;
     CHECK(other_shading);
 }
 

@@ -103,7 +103,7 @@ TEST_CASE("names: C++ programs of scenes with hostile names compile and draw the
           "[whole]") {
     const fs::path directory = scratch_directory();
     const std::vector<std::string> names = all_names();
-    const auto picture = [&](const std::vector<std::string>& with, const std::string& file) {
+    const auto image = [&](const std::vector<std::string>& with, const std::string& file) {
         const fs::path scene = write_file(directory / file, scene_with(with));
         generate("cpp", scene, directory / "program");
         const fs::path program = directory / "program/scene";
@@ -115,11 +115,11 @@ TEST_CASE("names: C++ programs of scenes with hostile names compile and draw the
         REQUIRE(run_program({program.string(), (directory / "scene.ppm").string()}).exit_code == 0);
         return read_file(directory / "scene.ppm");
     };
-    const std::string tame = picture(tame_names(names.size()), "tame.toml");
-    CHECK(picture(names, "hostile.toml") == tame);
+    const std::string tame = image(tame_names(names.size()), "tame.toml");
+    CHECK(image(names, "hostile.toml") == tame);
     // The file's name becomes the title.
     for (const char* const file : {"*\n#error x\n*.toml", "a\\\nb.toml", "\"); }\\.toml", "@OBJECTS@.toml"})
-        CHECK(picture(tame_names(names.size()), file) == tame);
+        CHECK(image(tame_names(names.size()), file) == tame);
 }
 
 TEST_CASE("names: the OpenGL program of a scene with hostile names is C++ without a warning") {

@@ -49,14 +49,14 @@ std::string small_ppm(int bytes) {
     return file;
 }
 
-std::string scene_with(const std::string& pictures) {
+std::string scene_with(const std::string& images) {
     std::string objects;
     int x = 0;
-    for (const char picture : pictures)
+    for (const char image : images)
         objects += fmt::format(
             "[[object]]\ntype = \"mesh\"\nfile = \"square.obj\"\nappearance_imported = true\n"
             "position = [{}, 0, 0]\ncolor_texture = \"{}.ppm\"\n",
-            3 * x++, picture);
+            3 * x++, image);
     return "version = 1\n[observer]\nposition = [0, 0, 6]\nlook_at = [0, 0, 0]\n[room]\nwidth = 50\nheight = "
            "50\ndepth = 50\n[image]\nwidth = 48\nheight "
            "= 32\n"

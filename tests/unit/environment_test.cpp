@@ -52,12 +52,12 @@ TEST_CASE("an environment's largest intensity is that over all directions and ch
 }
 
 TEST_CASE("an environment picture shows a pixel's exact value at the pixel's middle") {
-    const EnvironmentMap picture = numbered(8, 4);
-    CHECK_FALSE(picture.is_uniform());
+    const EnvironmentMap image = numbered(8, 4);
+    CHECK_FALSE(image.is_uniform());
     for (int row = 0; row < 4; ++row) {
         for (int column = 0; column < 8; ++column) {
             INFO("column " << column << ", row " << row);
-            CHECK(is_near(picture.seen(middle(column, row, 8, 4)), static_cast<float>(row * 8 + column),
+            CHECK(is_near(image.seen(middle(column, row, 8, 4)), static_cast<float>(row * 8 + column),
                           static_cast<float>(column), static_cast<float>(row)));
         }
     }
@@ -65,26 +65,26 @@ TEST_CASE("an environment picture shows a pixel's exact value at the pixel's mid
 
 TEST_CASE(
     "an environment picture has -z in its middle, +x to the right, +y at the top, and its sides meet at +z") {
-    const EnvironmentMap picture = numbered(8, 4);
-    CHECK(is_near(picture.seen({0, 0, -1}), (11 + 12 + 19 + 20) / 4.0f, 3.5f, 1.5f));
-    CHECK(is_near(picture.seen({1, 0, 0}), (13 + 14 + 21 + 22) / 4.0f, 5.5f, 1.5f));
-    CHECK(picture.seen({0, 1, 0}).b == 0);
-    CHECK(picture.seen({0, -1, 0}).b == 3);
+    const EnvironmentMap image = numbered(8, 4);
+    CHECK(is_near(image.seen({0, 0, -1}), (11 + 12 + 19 + 20) / 4.0f, 3.5f, 1.5f));
+    CHECK(is_near(image.seen({1, 0, 0}), (13 + 14 + 21 + 22) / 4.0f, 5.5f, 1.5f));
+    CHECK(image.seen({0, 1, 0}).b == 0);
+    CHECK(image.seen({0, -1, 0}).b == 3);
     // Half of the last column, half of the first.
-    CHECK(std::abs(picture.seen({0, 0, 1}).g - 3.5f) < 1e-3f);
+    CHECK(std::abs(image.seen({0, 0, 1}).g - 3.5f) < 1e-3f);
 }
 
 TEST_CASE("an environment of one pixel is that pixel in every direction") {
-    const EnvironmentMap picture(1, 1, {1, 2, 3});
+    const EnvironmentMap image(1, 1, {1, 2, 3});
     Random random(5);
-    for (int i = 0; i < 100; ++i) CHECK(is_near(picture.seen(random.direction()), 1, 2, 3));
+    for (int i = 0; i < 100; ++i) CHECK(is_near(image.seen(random.direction()), 1, 2, 3));
 }
 
 TEST_CASE("a NaN direction sees one of the environment's pixels") {
-    const EnvironmentMap picture(2, 2, {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
+    const EnvironmentMap image(2, 2, {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1});
     const float none = std::numeric_limits<float>::quiet_NaN();
-    CHECK(is_near(picture.seen({none, 0, 0}), 1, 1, 1));
-    CHECK(is_near(picture.seen({0, none, 0}), 1, 1, 1));
+    CHECK(is_near(image.seen({none, 0, 0}), 1, 1, 1));
+    CHECK(is_near(image.seen({0, none, 0}), 1, 1, 1));
 }
 
 TEST_CASE("an environment is read decoded from 8-bit files, and unchanged from float files") {

@@ -113,13 +113,13 @@ TEST_CASE("the command refuses a plugin of the interface before this one, and wr
     const bool lies = GENERATE(false, true);
     const fs::path directory = installed(
         version, lies ? std::string(candela::host_abi()) : fingerprint(version), lies ? "lies" : "told");
-    const fs::path picture = directory / "picture.png";
+    const fs::path image = directory / "picture.png";
     const CommandResult result = run_candela({"render", "--plugin-dir", directory.string(), "--reflection",
-                                              "other-interface", "-o", picture.string()});
+                                              "other-interface", "-o", image.string()});
     INFO(result.err);
     CHECK(result.exit_code == (lies ? 1 : 3));  // found while checking the input, if the manifest is honest
     CHECK(result.err.find(expected(directory, version)) != std::string::npos);
-    CHECK_FALSE(fs::exists(picture));
+    CHECK_FALSE(fs::exists(image));
 }
 
 TEST_CASE(

@@ -2,9 +2,9 @@
 #include "binding.h"
 
 #include "aov/terms.h"
+#include "images.h"
 #include "inspect/explanation.h"
 #include "module.h"
-#include "pictures.h"
 #include "scene.h"
 
 namespace candela::python {

@@ -9,7 +9,7 @@ PYBIND11_MODULE(_candela, module) {
     module.attr("__version__") = CANDELA_VERSION;
     add_errors(module);
     add_registry(module);
-    add_pictures(module);
+    add_images(module);
     add_scene(module);
     add_renderer(module);
     add_light(module);

@@ -9,7 +9,7 @@ void add_errors(py::module_& module);
 void add_registry(py::module_& module);
 void add_scene(py::module_& module);
 void add_renderer(py::module_& module);
-void add_pictures(py::module_& module);
+void add_images(py::module_& module);
 void add_light(py::module_& module);
 void add_reflection(py::module_& module);
 void add_shading(py::module_& module);

@@ -1,7 +1,7 @@
 // Renders one scene repeatedly, with changes between the pictures.
 
+#include "images.h"
 #include "module.h"
-#include "pictures.h"
 #include "scene.h"
 
 import candela.api;

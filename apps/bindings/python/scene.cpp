@@ -1,7 +1,7 @@
 #include "scene.h"
 
+#include "images.h"
 #include "module.h"
-#include "pictures.h"
 #include "values.h"
 
 import candela.api;

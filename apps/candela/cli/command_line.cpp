@@ -206,7 +206,7 @@ std::vector<std::shared_ptr<const void>>& triangles_of_models() {
 const std::string& scene_of_model(const std::string& file, bool allow_outside, bool with_animation,
                                   candela::Registry& registry) {
     static std::map<std::string, std::string> known;
-    static std::optional<TemporaryFolder> pictures;
+    static std::optional<TemporaryFolder> images;
     const auto [scene, is_new] = known.try_emplace(file);
     if (!is_new) return scene->second;
     const importing::Imported imported = importing::import_model(
@@ -214,14 +214,14 @@ const std::string& scene_of_model(const std::string& file, bool allow_outside, b
          .allow_outside = allow_outside,
          .with_animation = with_animation,
          .shown_file = std::filesystem::path(file).filename().string(),  // it is relative to itself
-         .write_picture =
+         .write_image =
              [&](const std::string& name, const std::string& content) {
-                 if (!pictures) pictures.emplace("candela-import-");
-                 const std::filesystem::path path = pictures->path() / name;
+                 if (!images) images.emplace("candela-import-");
+                 const std::filesystem::path path = images->path() / name;
                  candela::write_text_file(path, content);
                  return path.string();
              },
-         .name_of_picture = [](const std::filesystem::path& picture) { return picture.string(); }},
+         .name_of_image = [](const std::filesystem::path& image) { return image.string(); }},
         registry);
     for (const std::string& note : imported.notes) warn(note);
     triangles_of_models().push_back(imported.triangles);

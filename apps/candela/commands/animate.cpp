@@ -38,7 +38,7 @@ namespace {
 class FrameRenderer {
   public:
     FrameRenderer(candela::SceneFrames& frames, candela::Registry& registry,
-                  const candela::PictureFormat& format, int threads)
+                  const candela::OutputFormat& format, int threads)
         : frames_(frames),
           format_(format),
           threads_(threads),
@@ -89,7 +89,7 @@ class FrameRenderer {
     }
 
     candela::SceneFrames& frames_;
-    candela::PictureFormat format_;
+    candela::OutputFormat format_;
     int threads_;
     candela::FrameBuilder builder_;
     candela::Renderer renderer_{candela::Renderer::Keep::visibility};
@@ -109,7 +109,7 @@ int animate(const CommandLine& line) {
     const AnimationOutputs outputs = animation_outputs_from(line);
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = format_of_frames(line, outputs, registry);
+    const candela::OutputFormat format = format_of_frames(line, outputs, registry);
 
     candela::Diagnostics diagnostics;
     auto frames =

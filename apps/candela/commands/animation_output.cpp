@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/output_format.h"
 #include "cli/outputs.h"
-#include "cli/picture_format.h"
 #include "cli/scene_compilation.h"
 #include "film/film_encoding.h"
 
@@ -44,10 +44,10 @@ AnimationOutputs animation_outputs_from(const CommandLine& line) {
     return outputs;
 }
 
-candela::PictureFormat format_of_frames(const CommandLine& line, const AnimationOutputs& outputs,
-                                        candela::Registry& registry) {
-    candela::PictureFormat format =
-        picture_format_from(line, outputs.frames ? outputs.frames->file_of(0) : fs::path("0.png"), registry);
+candela::OutputFormat format_of_frames(const CommandLine& line, const AnimationOutputs& outputs,
+                                       candela::Registry& registry) {
+    candela::OutputFormat format =
+        output_format_from(line, outputs.frames ? outputs.frames->file_of(0) : fs::path("0.png"), registry);
     // ffmpeg reads 8-bit pictures as display-encoded.
     if (outputs.frames && !outputs.films.empty() && format.pixels != candela::PixelType::byte) {
         throw Error(ErrorCategory::bad_request,

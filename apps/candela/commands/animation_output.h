@@ -29,8 +29,8 @@ AnimationOutputs animation_outputs_from(const CommandLine& line);
 
 /// The format of the frames. Throws candela::Error (bad_request) if a film is wanted and cannot be made from
 /// them.
-candela::PictureFormat format_of_frames(const CommandLine& line, const AnimationOutputs& outputs,
-                                        candela::Registry& registry);
+candela::OutputFormat format_of_frames(const CommandLine& line, const AnimationOutputs& outputs,
+                                       candela::Registry& registry);
 
 /// The frames that --frames and --step choose, all validated. Empty if the scene is not animated; that is
 /// reported with the scene's other errors. Throws candela::Error (bad_request).

@@ -14,12 +14,12 @@
 
 #include "cli/command_line.h"
 #include "cli/commands.h"
-#include "cli/picture_format.h"
+#include "cli/output_format.h"
 #include "console/reporting.h"
 #include "console/stopwatch.h"
 #include "console/terminal.h"
 #include "film/render_cache.h"
-#include "jobs/picture_parts.h"
+#include "jobs/image_parts.h"
 
 import candela.api;
 import candela.render;
@@ -34,14 +34,14 @@ using candela::Links;
 namespace {
 
 /// The rows of all parts, part after part.
-class PartRows final : public candela::PictureRows {
+class PartRows final : public candela::ImageRows {
   public:
-    PartRows(const fs::path& picture, const PartedPicture& parted, ProgressBar& bar)
-        : picture_(picture), parted_(parted), bar_(bar) {}
+    PartRows(const fs::path& image, const PartedImage& parted, ProgressBar& bar)
+        : image_(image), parted_(parted), bar_(bar) {}
 
-    candela::PictureView next(int count) override {
+    candela::ImageView next(int count) override {
         const bool is_byte = parted_.whole.pixels == candela::PixelType::byte;
-        candela::PictureView rows = parted_.whole;
+        candela::ImageView rows = parted_.whole;
         rows.height = std::min(count, parted_.whole.height - done_);
         const std::size_t size = parted_.row_size() * static_cast<std::size_t>(rows.height);
         if (is_byte) {
@@ -71,7 +71,7 @@ class PartRows final : public candela::PictureRows {
 
     void open_next() {
         const PartNumber part{++number_, parted_.parts};
-        const fs::path file = file_of_part(picture_, part);
+        const fs::path file = file_of_part(image_, part);
         if (!is_up_to_date(file, parted_.inputs_of_parts(), Links::not_followed)) {
             throw Error(
                 ErrorCategory::failure,
@@ -87,11 +87,11 @@ class PartRows final : public candela::PictureRows {
     [[noreturn]] void fail() const {
         throw Error(
             ErrorCategory::failure,
-            fmt::format("'{}' cannot be read", file_of_part(picture_, {number_, parted_.parts}).string()));
+            fmt::format("'{}' cannot be read", file_of_part(image_, {number_, parted_.parts}).string()));
     }
 
-    const fs::path& picture_;
-    const PartedPicture& parted_;
+    const fs::path& image_;
+    const PartedImage& parted_;
     ProgressBar& bar_;
     std::optional<candela::RegularFile> file_;
     int number_ = 0, done_ = 0;
@@ -113,11 +113,11 @@ std::string ranges_of(const std::vector<int>& numbers) {
     return fmt::format("{}", fmt::join(ranges, ", "));
 }
 
-void require_all_parts(const fs::path& picture, const PartedPicture& parted) {
+void require_all_parts(const fs::path& image, const PartedImage& parted) {
     std::vector<int> missing, other;
     for (int i = 1; i <= parted.parts; ++i) {
         const CacheState is =
-            recorded(file_of_part(picture, {i, parted.parts}), parted.inputs_of_parts(), Links::not_followed);
+            recorded(file_of_part(image, {i, parted.parts}), parted.inputs_of_parts(), Links::not_followed);
         if (is == CacheState::missing) missing.push_back(i);
         if (is == CacheState::other) other.push_back(i);
     }
@@ -128,7 +128,7 @@ void require_all_parts(const fs::path& picture, const PartedPicture& parted) {
         problem += fmt::format("{}made from other inputs than the part rendered last: {}",
                                problem.empty() ? "" : "; ", ranges_of(other));
     throw Error(ErrorCategory::failure,
-                fmt::format("'{}' is incomplete ({} parts); {}", picture.string(), parted.parts, problem));
+                fmt::format("'{}' is incomplete ({} parts); {}", image.string(), parted.parts, problem));
 }
 
 int assemble(const CommandLine& line) {
@@ -136,32 +136,32 @@ int assemble(const CommandLine& line) {
         throw Error(ErrorCategory::bad_request,
                     "candela assemble needs the picture's name, the same as for candela render --part");
     const Stopwatch total;
-    const fs::path picture = line.all("picture").front();
+    const fs::path image = line.all("picture").front();
     std::error_code problem;
-    if (!fs::exists(folder_of_parts(picture), problem) && is_recorded(picture)) {
-        say(fmt::format("{} is already complete; it has no parts left\n", picture.string()));
+    if (!fs::exists(folder_of_parts(image), problem) && is_recorded(image)) {
+        say(fmt::format("{} is already complete; it has no parts left\n", image.string()));
         return 0;
     }
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = picture_format_from(line, picture, registry);
-    const PartedPicture parted = read_description(picture);
+    const candela::OutputFormat format = output_format_from(line, image, registry);
+    const PartedImage parted = read_description(image);
     if (format.pixels != parted.whole.pixels)
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("the parts of '{}' and the format differ in pixel type", picture.string()));
-    require_all_parts(picture, parted);
+                    fmt::format("the parts of '{}' and the format differ in pixel type", image.string()));
+    require_all_parts(image, parted);
     try {
         ProgressBar bar("assembling", !is_quiet());
-        PartRows rows(picture, parted, bar);
+        PartRows rows(image, parted, bar);
         candela::with_threads(threads_from(line),
-                              [&] { candela::write_rows(parted.whole, rows, format, picture, registry); });
-        record(picture, parted.inputs, Links::followed);
+                              [&] { candela::write_rows(parted.whole, rows, format, image, registry); });
+        record(image, parted.inputs, Links::followed);
     } catch (const Error&) {
         // Another process has assembled it and removed the parts.
-        if (recorded(picture, parted.inputs, Links::followed) != CacheState::made) throw;
+        if (recorded(image, parted.inputs, Links::followed) != CacheState::made) throw;
     }
-    if (!line.has("keep-parts")) fs::remove_all(folder_of_parts(picture), problem);
+    if (!line.has("keep-parts")) fs::remove_all(folder_of_parts(image), problem);
     say_afterwards([&] {
-        return fmt::format("{}: {} x {}, of {} part{}, {}\n", picture.string(), parted.whole.width,
+        return fmt::format("{}: {} x {}, of {} part{}, {}\n", image.string(), parted.whole.width,
                            parted.whole.height, parted.parts, parted.parts == 1 ? "" : "s",
                            duration_text(total.milliseconds()));
     });

@@ -17,8 +17,8 @@
 #include "aov/terms.h"
 #include "cli/command_line.h"
 #include "cli/commands.h"
+#include "cli/output_format.h"
 #include "cli/outputs.h"
-#include "cli/picture_format.h"
 #include "cli/scene_compilation.h"
 #include "commands/variants.h"
 #include "compare/contact_sheet.h"
@@ -38,7 +38,7 @@ using candela::ErrorCategory;
 
 namespace {
 
-constexpr std::size_t k_most_pictures = 256;
+constexpr std::size_t k_most_images = 256;
 
 struct Pane {
     std::string label;
@@ -71,20 +71,20 @@ int columns_for(const std::vector<Axis>& axes, std::size_t panes, const candela:
 }
 
 /// The film's pixels, for a comparison.
-Picture picture_of(const candela::Film& film) {
-    const candela::PictureView view = film.view();
-    Picture picture;
+Image image_of(const candela::Film& film) {
+    const candela::ImageView view = film.view();
+    Image picture;
     picture.width = view.width;
     picture.height = view.height;
     picture.is_float = view.pixels == candela::PixelType::real;
-    constexpr float k_byte = Picture::k_whole / 255;
+    constexpr float k_byte = Image::k_whole / 255;
     if (picture.is_float) picture.values.assign(view.reals.begin(), view.reals.end());
     for (const std::uint8_t byte : view.bytes) picture.values.push_back(k_byte * static_cast<float>(byte));
     return picture;
 }
 
 /// The largest difference among each pixel's channels; white stands for `maximum` levels.
-candela::Film difference_film(const Picture& a, const Picture& b, double maximum, candela::PixelType pixels) {
+candela::Film difference_film(const Image& a, const Image& b, double maximum, candela::PixelType pixels) {
     candela::Film film(a.width, a.height, pixels, candela::ColorEncoding::none);
     std::vector<float> grey(a.pixels());
     for (std::size_t i = 0; i < grey.size() && maximum > 0; ++i)
@@ -95,11 +95,11 @@ candela::Film difference_film(const Picture& a, const Picture& b, double maximum
 
 /// Replaces every picture but the first with its difference from the first.
 void show_differences(std::vector<Pane>& panes, candela::PixelType pixels) {
-    const Picture first = picture_of(panes.front().film);
-    std::vector<Picture> others;
+    const Image first = image_of(panes.front().film);
+    std::vector<Image> others;
     double maximum = 0;
     for (std::size_t i = 1; i < panes.size(); ++i) {
-        others.push_back(picture_of(panes[i].film));
+        others.push_back(image_of(panes[i].film));
         panes[i].difference = compare(first, others.back(), nullptr, 0).interior;
         maximum = std::max(maximum, panes[i].difference->maximum);
     }
@@ -183,7 +183,7 @@ class PaneRenderer {
         encoding_ = compiled->image.color_management;
         const auto term = std::ranges::find(variants, "--terms", &Variant::option);
         if (term != variants.end() && term->value != "picture")
-            return TermRenderer(*compiled, 0).picture(one_term(term->value, draft->scene), pixels_);
+            return TermRenderer(*compiled, 0).image(one_term(term->value, draft->scene), pixels_);
         candela::Film film(compiled->image.width, compiled->image.height, pixels_,
                            compiled->image.color_management);
         const auto statistics = candela::render(*compiled, film, {});
@@ -237,10 +237,10 @@ int run_compare(const std::vector<std::string>& arguments) {
         throw Error(ErrorCategory::bad_request,
                     "nothing to compare; name several models or values, as in --reflection phong,ggx");
     }
-    if (all.size() > k_most_pictures) {
+    if (all.size() > k_most_images) {
         throw Error(
             ErrorCategory::bad_request,
-            fmt::format("the sheet would have {} pictures; the maximum is {}", all.size(), k_most_pictures));
+            fmt::format("the sheet would have {} pictures; the maximum is {}", all.size(), k_most_images));
     }
     if (line.has("difference") && has_several_terms(axes))
         throw Error(ErrorCategory::bad_request,
@@ -254,7 +254,7 @@ int run_compare(const std::vector<std::string>& arguments) {
     require_free(output, existing);
     const auto wanted_columns = columns_from(line, all.size());
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = picture_format_from(line, output, registry);
+    const candela::OutputFormat format = output_format_from(line, output, registry);
 
     PaneRenderer renderer(line, output, registry, format.pixels);
     std::vector<Pane> panes;
@@ -280,7 +280,7 @@ int run_compare(const std::vector<std::string>& arguments) {
                        format.pixels, renderer.encoding());
     for (std::size_t i = 0; i < panes.size(); ++i)
         sheet.put(static_cast<int>(i), panes[i].film, panes[i].label);
-    candela::write_picture(sheet.film(), format, output, registry, existing);
+    candela::write_image(sheet.film(), format, output, registry, existing);
     if (line.has("json")) std::cout << json_of(panes, columns) << '\n';
     say_afterwards([&] {
         return fmt::format("{}: {} pictures of {} x {}\n", output == "-" ? "sheet" : output, panes.size(),

@@ -46,7 +46,7 @@ std::optional<Submission> submission_of_frames(const CommandLine& line, int thre
                                 quoted_for_shell(outputs.films.front().string())));
     }
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = format_of_frames(line, outputs, registry);
+    const candela::OutputFormat format = format_of_frames(line, outputs, registry);
     bool has_asked = false;
     const candela::SceneRequest request = repeatable_request_from(line, registry, has_asked, Models::moving);
     auto frames = candela::SceneFrames::read(request, registry, diagnostics);

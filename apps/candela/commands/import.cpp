@@ -52,9 +52,9 @@ void require_no_part_of(const fs::path& model, const fs::path& output) {
 }
 
 /// Existing pictures may be the user's own, unless their contents are the same.
-void require_place_for(const std::map<std::string, std::string>& pictures, const fs::path& folder,
+void require_place_for(const std::map<std::string, std::string>& images, const fs::path& folder,
                        const fs::path& model, bool is_forced) {
-    for (const auto& [name, content] : pictures) {
+    for (const auto& [name, content] : images) {
         const fs::path file = folder / name;
         require_no_part_of(model, file);
         std::error_code problem;
@@ -102,15 +102,15 @@ int run_import(const std::vector<std::string>& arguments) {
     }
 
     // Pictures embedded in the file are written next to the scene.
-    const std::string pictures_folder = fs::path(output).stem().string() + "_textures";
-    std::map<std::string, std::string> pictures;
+    const std::string images_folder = fs::path(output).stem().string() + "_textures";
+    std::map<std::string, std::string> images;
     candela::Registry registry = registry_from(line);
     const importing::Imported imported = importing::import_model(
         {.file = file,
          .up = up_from(line),
          .allow_outside = line.has("allow-outside"),
          .shown_file = name_in(folder, file),
-         .write_picture =
+         .write_image =
              [&](const std::string& name, const std::string& content) {
                  if (is_printed)
                      throw Error(
@@ -118,20 +118,20 @@ int run_import(const std::vector<std::string>& arguments) {
                          fmt::format("'{}' contains pictures, which are written next to the scene; name the "
                                      "scene with -o",
                                      file.string()));
-                 pictures.emplace(name, content);
-                 return pictures_folder + "/" + name;
+                 images.emplace(name, content);
+                 return images_folder + "/" + name;
              },
-         .name_of_picture = [&](const fs::path& picture) { return name_in(folder, picture); }},
+         .name_of_image = [&](const fs::path& image) { return name_in(folder, image); }},
         registry);
     for (const std::string& note : imported.notes) warn(note);
     if (is_printed) {
         std::cout << imported.scene;
         return 0;
     }
-    if (!pictures.empty()) {
-        require_place_for(pictures, folder / pictures_folder, file, is_forced);
-        OutputFolder output_folder(folder / pictures_folder, candela::Links::not_followed);
-        for (const auto& [name, content] : pictures) output_folder.write(name, content);
+    if (!images.empty()) {
+        require_place_for(images, folder / images_folder, file, is_forced);
+        OutputFolder output_folder(folder / images_folder, candela::Links::not_followed);
+        for (const auto& [name, content] : images) output_folder.write(name, content);
         output_folder.finish();
     }
     candela::write_text_file(output, imported.scene,

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "cli/picture_format.h"
+#include "cli/output_format.h"
 #include "import/import.h"
 #include "jobs/heartbeat.h"
 #include "programs/sibling_program.h"

@@ -28,7 +28,7 @@ int run_new(const std::vector<std::string>& arguments) {
     if (!line.parse(arguments)) return 0;
 
     const std::string file = line.has("file") ? line.all("file").front() : "scene.toml";
-    const std::string scene = starter_scene(line.has("animation") ? Starter::film : Starter::picture);
+    const std::string scene = starter_scene(line.has("animation") ? Starter::film : Starter::image);
     if (file == "-") {
         std::cout << scene;
         return 0;

@@ -8,14 +8,14 @@
 #include <span>
 #include <string>
 
+#include "cli/output_format.h"
 #include "cli/outputs.h"
-#include "cli/picture_format.h"
 #include "cli/scene_compilation.h"
 #include "console/exit_code.h"
 #include "console/reporting.h"
 #include "console/terminal.h"
 #include "film/render_cache.h"
-#include "jobs/picture_parts.h"
+#include "jobs/image_parts.h"
 
 import candela.api;
 import candela.util;
@@ -36,7 +36,7 @@ void write_pixels(candela::RenderedRows& rows, int count, const fs::path& path) 
     candela::OutputFile file(path, candela::Existing::replaced, Links::not_followed);
     constexpr int k_at_once = 64;
     for (int y = 0; y < count; y += k_at_once) {
-        const candela::PictureView some = rows.next(k_at_once);
+        const candela::ImageView some = rows.next(k_at_once);
         file.write(some.pixels == candela::PixelType::byte ? std::as_bytes(some.bytes)
                                                            : std::as_bytes(some.reals));
     }
@@ -51,7 +51,7 @@ void require_no(const CommandLine& line, const char* option, const char* why) {
 
 }  // namespace
 
-bool is_streamed(const candela::ImageSettings& image, const candela::PictureFormat& format,
+bool is_streamed(const candela::ImageSettings& image, const candela::OutputFormat& format,
                  candela::Registry& registry) {
     constexpr double k_large = 256e6;  // bytes
     const double size =
@@ -60,7 +60,7 @@ bool is_streamed(const candela::ImageSettings& image, const candela::PictureForm
 }
 
 int render_by_rows(const CommandLine& line, const candela::RenderScene& scene,
-                   const candela::PictureFormat& format, candela::Existing existing,
+                   const candela::OutputFormat& format, candela::Existing existing,
                    candela::Registry& registry, const Stopwatch& total) {
     const auto output = line.get<std::string>("output");
     const candela::ImageSettings& image = scene.image;
@@ -69,10 +69,10 @@ int render_by_rows(const CommandLine& line, const candela::RenderScene& scene,
         ProgressBar bar("rendering", !is_quiet());
         candela::RenderedRows rows(scene, format.pixels, {0, image.height},
                                    {.threads = threads, .progress = bar.updater()});
-        const candela::PictureView whole{.width = image.width,
-                                         .height = image.height,
-                                         .pixels = format.pixels,
-                                         .encoding = image.color_management};
+        const candela::ImageView whole{.width = image.width,
+                                       .height = image.height,
+                                       .pixels = format.pixels,
+                                       .encoding = image.color_management};
         candela::with_threads(threads,
                               [&] { candela::write_rows(whole, rows, format, output, registry, existing); });
         warn_if_dark(rows);
@@ -94,7 +94,7 @@ int render_part(const CommandLine& line) {
     require_no(line, "no-clobber", "a part that is up to date is kept anyway");
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = picture_format_from(line, output, registry);
+    const candela::OutputFormat format = output_format_from(line, output, registry);
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
     if (draft) {
@@ -105,7 +105,7 @@ int render_part(const CommandLine& line) {
     if (!scene) return static_cast<int>(exit_code_of(diagnostics));
 
     const candela::RowRange range = rows_of(part, scene->image.height);
-    const PartedPicture parted = parted_picture_of(*draft, format, part.of, registry);
+    const PartedImage parted = parted_image_of(*draft, format, part.of, registry);
     const fs::path file = file_of_part(output, part);
     const char* is_done = nullptr;
     if (recorded(output, parted.inputs, Links::followed) == CacheState::made) {

@@ -10,13 +10,13 @@ import candela.scene;
 import candela.util;
 
 /// Whether the picture is too large to keep in memory and the format does not require that.
-bool is_streamed(const candela::ImageSettings& image, const candela::PictureFormat& format,
+bool is_streamed(const candela::ImageSettings& image, const candela::OutputFormat& format,
                  candela::Registry& registry);
 
 /// Renders a picture into the file that --output names, with only some bands in memory. Returns the exit
 /// code.
 int render_by_rows(const CommandLine& line, const candela::RenderScene& scene,
-                   const candela::PictureFormat& format, candela::Existing existing,
+                   const candela::OutputFormat& format, candela::Existing existing,
                    candela::Registry& registry, const Stopwatch& total);
 
 /// Renders the part that --part names. Returns the exit code.

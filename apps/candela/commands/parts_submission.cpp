@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
+#include "cli/output_format.h"
 #include "cli/outputs.h"
-#include "cli/picture_format.h"
 #include "cli/scene_compilation.h"
 #include "commands/job_submission.h"
-#include "jobs/picture_parts.h"
+#include "jobs/image_parts.h"
 
 import candela.render;
 import candela.scene;
@@ -22,7 +22,7 @@ using candela::ErrorCategory;
 namespace {
 
 /// The picture that --output names.
-fs::path picture_from(const CommandLine& line) {
+fs::path image_from(const CommandLine& line) {
     const std::vector<std::string> outputs = line.all("output");
     if (outputs.size() != 1 || outputs.front() == "-")
         throw Error(ErrorCategory::bad_request,
@@ -39,9 +39,9 @@ fs::path picture_from(const CommandLine& line) {
 
 std::optional<Submission> submission_of_parts(const CommandLine& line, int threads,
                                               candela::Diagnostics& diagnostics) {
-    const fs::path picture = picture_from(line);
+    const fs::path picture = image_from(line);
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = picture_format_from(line, picture, registry);
+    const candela::OutputFormat format = output_format_from(line, picture, registry);
     bool has_asked = false;
     const auto draft =
         candela::draft_scene(repeatable_request_from(line, registry, has_asked), registry, diagnostics);
@@ -50,7 +50,7 @@ std::optional<Submission> submission_of_parts(const CommandLine& line, int threa
     require_no_scene_file(picture.string(), candela::input_files(*draft), "the picture");
 
     const int parts = count_from(line, "parts", 1'000'000);
-    const PartedPicture parted = parted_picture_of(*draft, format, parts, registry);
+    const PartedImage parted = parted_image_of(*draft, format, parts, registry);
     Submission job{.plan = {},
                    .folder = JobFolder::of_output(picture),
                    .commands = {},

@@ -11,8 +11,8 @@
 #include "aov/terms.h"
 #include "cli/command_line.h"
 #include "cli/commands.h"
+#include "cli/output_format.h"
 #include "cli/outputs.h"
-#include "cli/picture_format.h"
 #include "cli/scene_compilation.h"
 #include "commands/part_rendering.h"
 #include "console/exit_code.h"
@@ -43,27 +43,27 @@ std::vector<NamedTerm> terms_asked_for(const CommandLine& line, const candela::S
 }
 
 /// The files for a picture and its terms.
-struct PictureFiles {
+struct OutputFiles {
     fs::path picture;
     std::vector<fs::path> terms;
-    const candela::PictureFormat& format;
+    const candela::OutputFormat& format;
     candela::Existing existing;
 };
 
 /// Writes the picture and its terms, all of them or none.
-void write_pictures(const candela::Film& film, const std::vector<NamedTerm>& terms, TermRenderer& renderer,
-                    const PictureFiles& files, int threads, candela::Registry& registry) {
+void write_images(const candela::Film& film, const std::vector<NamedTerm>& terms, TermRenderer& renderer,
+                  const OutputFiles& files, int threads, candela::Registry& registry) {
     candela::OutputFile picture(files.picture, files.existing);
     // Encoding takes about three nanoseconds per pixel.
     candela::with_threads(
-        threads, [&] { candela::write_picture(film, files.format, picture, registry); },
+        threads, [&] { candela::write_image(film, files.format, picture, registry); },
         3e-6 * film.width() * film.height());
     std::vector<std::unique_ptr<candela::OutputFile>> others;
     for (std::size_t i = 0; i < files.terms.size(); ++i) {
         others.push_back(std::make_unique<candela::OutputFile>(files.terms[i], files.existing,
                                                                candela::Links::not_followed));
-        candela::write_picture(renderer.picture(terms[i], files.format.pixels), files.format, *others.back(),
-                               registry);
+        candela::write_image(renderer.image(terms[i], files.format.pixels), files.format, *others.back(),
+                             registry);
         others.back()->complete();
     }
     if (others.empty()) return picture.finish();
@@ -73,7 +73,7 @@ void write_pictures(const candela::Film& film, const std::vector<NamedTerm>& ter
     picture.finish();
 }
 
-int render_picture(const CommandLine& line) {
+int render_image(const CommandLine& line) {
     const Stopwatch total;
     const auto output = line.get<std::string>("output");
     require_no_terminal(output);
@@ -82,7 +82,7 @@ int render_picture(const CommandLine& line) {
     require_no_default_link(line, "output", output);
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
-    const candela::PictureFormat format = picture_format_from(line, output, registry);
+    const candela::OutputFormat format = output_format_from(line, output, registry);
 
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
@@ -112,7 +112,7 @@ int render_picture(const CommandLine& line) {
         made.emplace(image.width, image.height, format.pixels, image.color_management);
     } catch (const Error& problem) {
         candela::Diagnostics too_large;
-        too_large.failure(draft->picture_place, problem.what());
+        too_large.failure(draft->image_place, problem.what());
         report(too_large);
         return static_cast<int>(ExitCode::failure);
     }
@@ -133,7 +133,7 @@ int render_picture(const CommandLine& line) {
     if (format.has_layers && !terms.empty()) {
         write_with_layers(film, terms, term_renderer, format, output, registry, existing);
     } else {
-        write_pictures(film, terms, term_renderer, {output, term_files, format, existing}, threads, registry);
+        write_images(film, terms, term_renderer, {output, term_files, format, existing}, threads, registry);
     }
     const double write_ms = writing.milliseconds();
 
@@ -184,5 +184,5 @@ int run_render(const std::vector<std::string>& arguments) {
         "them")("verbose", "print how long each stage took");
     add_no_clobber_option(line);
     if (!line.parse(arguments)) return 0;
-    return line.has("part") ? render_part(line) : render_picture(line);
+    return line.has("part") ? render_part(line) : render_image(line);
 }

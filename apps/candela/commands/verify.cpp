@@ -75,12 +75,12 @@ verify::Expectation expectation_of(candela::RenderScene& scene, double tolerance
     candela::Film film(image.width, image.height, candela::PixelType::byte, image.color_management);
     candela::render(scene, film, {});
     const auto png = candela::format_of("reference.png", registry);
-    candela::write_picture(film, png, folder / "reference.png", registry);
+    candela::write_image(film, png, folder / "reference.png", registry);
     verify::Expectation result{
         .width = image.width,
         .height = image.height,
         .encoding = image.color_management,
-        .levels = verify::unrounded_picture(scene),
+        .levels = verify::unrounded_image(scene),
         .sensitivity = verify::sensitivity_of(scene, film, verify::edge_levels(tolerance)),
         .shown = {}};
     const std::array<float, 3> background{image.background.x, image.background.y, image.background.z};
@@ -89,8 +89,8 @@ verify::Expectation expectation_of(candela::RenderScene& scene, double tolerance
         constexpr float k_rounding = 0.01f;
         if (std::abs(result.levels[i] - background[i % 3]) > k_rounding) result.shown[i / 3] = true;
     }
-    candela::write_picture(verify::mask_of(result.sensitivity.edges, image.width, image.height), png,
-                           folder / "edges.png", registry);
+    candela::write_image(verify::mask_of(result.sensitivity.edges, image.width, image.height), png,
+                         folder / "edges.png", registry);
     return result;
 }
 
@@ -110,7 +110,7 @@ verify::Verdict verdict_on(const std::string& name, const verify::Expectation& e
                             folder / (name + "-difference.png"), decoded);
     } catch (const Error&) {
         if (!fs::is_regular_file(decoded)) throw;
-        const verify::RgbPicture read = verify::read_ppm(decoded);
+        const verify::RgbImage read = verify::read_ppm(decoded);
         if (read.width == expected.width && read.height == expected.height) throw;
         verdict.failure = fmt::format("the picture has {} x {} pixels; the scene's has {} x {}", read.width,
                                       read.height, expected.width, expected.height);
@@ -156,7 +156,7 @@ std::vector<verify::Verdict> verdicts_on(const Verification& what, candela::Rend
 /// Throws if the report or the programs in it would overwrite a file that the scene is made from.
 void require_no_input_in_report(const std::string& report, const Verification& what,
                                 const SceneToExport& scene) {
-    std::vector<fs::path> names = Workplace::pictures_of(what.targets);
+    std::vector<fs::path> names = Workplace::images_of(what.targets);
     names.emplace_back("index.html");
     for (std::size_t i = 0; i < what.targets.size() && !what.program; ++i)
         for (const fs::path& name : names_of(what.programs[i]))

@@ -92,7 +92,7 @@ int run_view(const std::vector<std::string>& arguments) {
         line.has("target") ? LoadedTarget(line.get<std::string>("target"), registry) : page_target(registry);
     std::vector<std::string> for_generate = without({"--no-open"}, {"--port", "--target"}, arguments);
     if (!line.has("models")) for_generate.insert(for_generate.end(), {"--models", "all"});
-    const TemporaryFolder pictures("candela-view-");
+    const TemporaryFolder images("candela-view-");
     const TemporaryFolder kernels("candela-view-");  // compiled by explain
     const auto for_render = without({"--no-open", "--quiet"}, {"--port", "--target", "--models"}, arguments);
     auto for_explain = for_render;
@@ -109,7 +109,7 @@ int run_view(const std::vector<std::string>& arguments) {
             .log = [](const std::string& text) { warn(text); },
             .render =
                 [&](const std::vector<view::Change>& changes, std::stop_token unwanted) {
-                    return rendered(for_render, changes, pictures.path() / "reference.png",
+                    return rendered(for_render, changes, images.path() / "reference.png",
                                     std::move(unwanted));
                 },
             .explain = [&](const std::vector<view::Change>& changes) { return explainer->explain(changes); },
@@ -122,7 +122,7 @@ int run_view(const std::vector<std::string>& arguments) {
             .keep =
                 [&](const std::vector<view::Change>& changes, const std::string& kernel) {
                     const view::Outcome outcome =
-                        kept(for_keep, changes, kernel, pictures.path() / "kept.kernel");
+                        kept(for_keep, changes, kernel, images.path() / "kept.kernel");
                     say(outcome.content + '\n');
                     return outcome;
                 }});
@@ -140,7 +140,7 @@ int run_view(const std::vector<std::string>& arguments) {
                                           });
     const std::string address = server->address();
     std::cout << address << '\n' << std::flush;  // the reader may be waiting
-    if (!line.has("no-open")) open_browser(page_leading_to(address, pictures.path()));
+    if (!line.has("no-open")) open_browser(page_leading_to(address, images.path()));
     server->run();
     while_serving.reset();  // a second signal ends this at once
     // All of them wait for programs that they have started.

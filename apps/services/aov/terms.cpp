@@ -268,7 +268,7 @@ Film TermRenderer::values(const NamedTerm& term) {
     return film;
 }
 
-Film TermRenderer::picture(const NamedTerm& term, candela::PixelType pixels) {
+Film TermRenderer::image(const NamedTerm& term, candela::PixelType pixels) {
     Film film = values(term);
     if (pixels == candela::PixelType::real) return film;
     Planes planes(film);
@@ -279,8 +279,8 @@ Film TermRenderer::picture(const NamedTerm& term, candela::PixelType pixels) {
 }
 
 void write_with_layers(const Film& film, const std::vector<NamedTerm>& terms, TermRenderer& renderer,
-                       const candela::PictureFormat& format, const fs::path& path,
-                       candela::Registry& registry, candela::Existing existing) {
+                       const candela::OutputFormat& format, const fs::path& path, candela::Registry& registry,
+                       candela::Existing existing) {
     std::vector<Planes> planes{Planes(film)};
     std::vector<std::string> names(k_color.begin(), k_color.end());
     std::vector<std::span<const float>> values;
@@ -301,7 +301,7 @@ void write_with_layers(const Film& film, const std::vector<NamedTerm>& terms, Te
         }
         add(channels);
     }
-    std::vector<candela::PictureChannel> channels;
+    std::vector<candela::ImageChannel> channels;
     for (std::size_t i = 0; i < names.size(); ++i) channels.push_back({names[i].c_str(), values[i]});
     candela::write_layers(film.width(), film.height(), channels, format, path, registry, existing);
 }

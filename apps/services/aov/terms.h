@@ -31,11 +31,11 @@ std::vector<NamedTerm> terms_from(const std::vector<std::string>& words, const c
 int channel_count(const NamedTerm& term);
 
 /// The file for a term of that name, next to the picture: "scene.diffuse.png" for "scene.png".
-std::filesystem::path file_of_term(const std::string& name, const std::filesystem::path& picture);
+std::filesystem::path file_of_term(const std::string& name, const std::filesystem::path& image);
 
 /// The files of all terms. Throws candela::Error (bad_request) if two have the same name.
 std::vector<std::filesystem::path> files_of(const std::vector<NamedTerm>& terms,
-                                            const std::filesystem::path& picture);
+                                            const std::filesystem::path& image);
 
 /// Renders terms of one scene, one after another.
 class TermRenderer {
@@ -48,7 +48,7 @@ class TermRenderer {
 
     /// The values for display: those that are not intensities are mapped to colours
     /// (docs/user/explaining.md), unless the format's pixels are floats.
-    candela::Film picture(const NamedTerm& term, candela::PixelType pixels);
+    candela::Film image(const NamedTerm& term, candela::PixelType pixels);
 
   private:
     const candela::RenderScene& scene_;
@@ -61,5 +61,5 @@ class TermRenderer {
 
 /// Writes the picture, whose pixels are floats, and the terms as layers of one file.
 void write_with_layers(const candela::Film& film, const std::vector<NamedTerm>& terms, TermRenderer& renderer,
-                       const candela::PictureFormat& format, const std::filesystem::path& path,
+                       const candela::OutputFormat& format, const std::filesystem::path& path,
                        candela::Registry& registry, candela::Existing existing);

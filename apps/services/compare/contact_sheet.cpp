@@ -45,11 +45,11 @@ candela::Film blank(const ContactSheet::Layout& layout, int scale, candela::Pixe
 ContactSheet::ContactSheet(const Layout& layout, candela::PixelType pixels, candela::ColorEncoding encoding)
     : layout_(layout), scale_(scale_for(layout.width)), film_(blank(layout, scale_, pixels, encoding)) {}
 
-void ContactSheet::put(int number, const candela::Film& picture, const std::string& label) {
+void ContactSheet::put(int number, const candela::Film& image, const std::string& label) {
     const int margin = k_margin * scale_;
     const int x = margin + number % layout_.columns * (layout_.width + margin);
     const int y = margin + number / layout_.columns * (layout_.height + 2 * margin + k_line * scale_);
-    film_.paste(x, y, picture);
+    film_.paste(x, y, image);
     draw_label(film_, x, y + layout_.height + margin, scale_, fitted_label(label, scale_, layout_.width),
                k_ink);
 }

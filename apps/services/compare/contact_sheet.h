@@ -17,7 +17,7 @@ class ContactSheet {
     ContactSheet(const Layout& layout, candela::PixelType pixels, candela::ColorEncoding encoding);
 
     /// `number` counts row by row from the top. The picture's pixels are copied unchanged.
-    void put(int number, const candela::Film& picture, const std::string& label);
+    void put(int number, const candela::Film& image, const std::string& label);
 
     const candela::Film& film() const noexcept { return film_; }
 

@@ -8,16 +8,16 @@
 namespace {
 
 /// Exact for whole numbers, so that a tolerance of 3 levels tolerates 3 levels.
-double difference(const Picture& a, const Picture& b, std::size_t i) {
+double difference(const Image& a, const Image& b, std::size_t i) {
     constexpr double k_levels = 255;
     if (a.is_float || b.is_float)
         return k_levels *
                std::abs(static_cast<double>(a.normalized(i)) - static_cast<double>(b.normalized(i)));
     return k_levels * std::abs(static_cast<double>(a.values[i]) - static_cast<double>(b.values[i])) /
-           static_cast<double>(Picture::k_whole);
+           static_cast<double>(Image::k_whole);
 }
 
-bool is_white(const Picture& mask, std::size_t pixel) {
+bool is_white(const Image& mask, std::size_t pixel) {
     for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
         if (mask.normalized(i) <= 0.5f) return false;
     }
@@ -25,7 +25,7 @@ bool is_white(const Picture& mask, std::size_t pixel) {
 }
 
 /// Until the end, `mean` and `rmse` are sums of the differences and of their squares.
-void add(DifferenceStatistics& statistics, const Picture& a, const Picture& b, std::size_t pixel,
+void add(DifferenceStatistics& statistics, const Image& a, const Image& b, std::size_t pixel,
          double tolerance) {
     double largest = 0;
     for (std::size_t i = 3 * pixel; i < 3 * pixel + 3; ++i) {
@@ -61,12 +61,12 @@ std::optional<double> DifferenceStatistics::psnr() const {
     return 20 * std::log10(255 / rmse);
 }
 
-double largest_difference(const Picture& a, const Picture& b, std::size_t pixel) {
+double largest_difference(const Image& a, const Image& b, std::size_t pixel) {
     return std::max(
         {difference(a, b, 3 * pixel), difference(a, b, 3 * pixel + 1), difference(a, b, 3 * pixel + 2)});
 }
 
-Differences compare(const Picture& a, const Picture& b, const Picture* mask, double tolerance) {
+Differences compare(const Image& a, const Image& b, const Image* mask, double tolerance) {
     Differences result;
     if (mask != nullptr) result.edges.emplace();
     for (std::size_t pixel = 0; pixel < a.pixels(); ++pixel) {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "compare/picture.h"
+#include "compare/image.h"
 
 /// Statistics of some of the pixels; differences in levels, over all channels.
 struct DifferenceStatistics {
@@ -28,8 +28,8 @@ struct Differences {
 };
 
 /// The largest difference among the channels of the `pixel`-th pixel, in levels.
-double largest_difference(const Picture& a, const Picture& b, std::size_t pixel);
+double largest_difference(const Image& a, const Image& b, std::size_t pixel);
 
 /// The statistics of two pictures of one size. White pixels in `mask` (all channels above 1/2), which has the
 /// same size or is null, are edges. `beyond` counts differences larger than `tolerance` levels.
-Differences compare(const Picture& a, const Picture& b, const Picture* mask, double tolerance);
+Differences compare(const Image& a, const Image& b, const Image* mask, double tolerance);

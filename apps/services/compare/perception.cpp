@@ -49,10 +49,10 @@ double masking(double contrast) {
     return std::pow(1 + std::pow(0.0153 * a, 4.0), 0.25);
 }
 
-double linear(const Picture& picture, std::size_t i) {
+double linear(const Image& image, std::size_t i) {
     constexpr float k_brightest = 1e6f;
-    const double value = std::clamp(picture.normalized(i), 0.0f, k_brightest);
-    if (picture.is_float) return value;
+    const double value = std::clamp(image.normalized(i), 0.0f, k_brightest);
+    if (image.is_float) return value;
     return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
 }
 
@@ -62,9 +62,9 @@ struct Color {
 };
 
 /// CIE 15: XYZ of sRGB (IEC 61966-2-1), relative to its white, and L*a*b*.
-Color color_at(const Picture& picture, std::size_t pixel) {
-    const double red = linear(picture, 3 * pixel), green = linear(picture, 3 * pixel + 1),
-                 blue = linear(picture, 3 * pixel + 2);
+Color color_at(const Image& image, std::size_t pixel) {
+    const double red = linear(image, 3 * pixel), green = linear(image, 3 * pixel + 1),
+                 blue = linear(image, 3 * pixel + 2);
     const double x = (0.4124 * red + 0.3576 * green + 0.1805 * blue) / 0.9505;
     const double y = 0.2126 * red + 0.7152 * green + 0.0722 * blue;
     const double z = (0.0193 * red + 0.1192 * green + 0.9505 * blue) / 1.0890;
@@ -78,11 +78,11 @@ Color color_at(const Picture& picture, std::size_t pixel) {
 /// Laplacian pyramid, but with all levels as large as the picture.
 class Pyramid {
   public:
-    explicit Pyramid(const Picture& picture)
-        : width_(static_cast<std::size_t>(picture.width)), height_(static_cast<std::size_t>(picture.height)) {
-        levels_[0].resize(picture.pixels());
-        for (std::size_t i = 0; i < picture.pixels(); ++i)
-            levels_[0][i] = static_cast<float>(color_at(picture, i).luminance);
+    explicit Pyramid(const Image& image)
+        : width_(static_cast<std::size_t>(image.width)), height_(static_cast<std::size_t>(image.height)) {
+        levels_[0].resize(image.pixels());
+        for (std::size_t i = 0; i < image.pixels(); ++i)
+            levels_[0][i] = static_cast<float>(color_at(image, i).luminance);
         for (std::size_t level = 1; level < k_levels; ++level)
             levels_[level] = blurred(levels_[level - 1], std::size_t{1} << (level - 1));
     }
@@ -123,7 +123,7 @@ class Pyramid {
 
 class Metric {
   public:
-    Metric(const Picture& a, const Picture& b) : a_(a), b_(b), of_a_(a), of_b_(b) {
+    Metric(const Image& a, const Image& b) : a_(a), b_(b), of_a_(a), of_b_(b) {
         const double pixels_a_degree =
             a.width / (2 * std::tan(k_degrees / 2 * std::numbers::pi / 180) * 180 / std::numbers::pi);
         // The eye adapts to about one degree.
@@ -161,8 +161,8 @@ class Metric {
         return std::clamp(sum / std::max(contrasts, 1e-5), 1.0, 10.0);
     }
 
-    const Picture& a_;
-    const Picture& b_;
+    const Image& a_;
+    const Image& b_;
     Pyramid of_a_, of_b_;
     std::size_t adaptation_ = 0;
     std::array<double, k_bands> cycles_{}, weights_{};
@@ -170,7 +170,7 @@ class Metric {
 
 }  // namespace
 
-std::size_t perceptible_pixels(const Picture& a, const Picture& b) {
+std::size_t perceptible_pixels(const Image& a, const Image& b) {
     if (a.is_float == b.is_float && a.values == b.values) return 0;
     const std::uint64_t planes = 2 * k_levels + 1;
     candela::require_memory(sizeof(float) * planes * a.pixels(),

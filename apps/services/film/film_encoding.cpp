@@ -63,9 +63,9 @@ void require_encoder(const fs::path& film) {
                             film.string()));
 }
 
-void encode(const std::vector<fs::path>& pictures, double frames_per_second, const fs::path& film) {
+void encode(const std::vector<fs::path>& images, double frames_per_second, const fs::path& film) {
     const Encoding* const encoding = encoding_of(film);
-    if (encoding == nullptr || pictures.empty())
+    if (encoding == nullptr || images.empty())
         throw Error(ErrorCategory::bad_request,
                     fmt::format("'{}' cannot be written as a film", film.string()));
     OutputFolder output(folder_of(film));
@@ -73,9 +73,9 @@ void encode(const std::vector<fs::path>& pictures, double frames_per_second, con
     const fs::path links = output.draft() / "frames";
     std::error_code problem;
     fs::create_directory(links, problem);
-    const std::string extension = pictures.front().extension().string();
-    for (std::size_t i = 0; i < pictures.size() && !problem; ++i)
-        fs::create_symlink(fs::absolute(pictures[i]), links / fmt::format("{:08}{}", i, extension), problem);
+    const std::string extension = images.front().extension().string();
+    for (std::size_t i = 0; i < images.size() && !problem; ++i)
+        fs::create_symlink(fs::absolute(images[i]), links / fmt::format("{:08}{}", i, extension), problem);
     if (problem) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' cannot be written: {}", film.string(), problem.message()));

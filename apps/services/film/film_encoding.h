@@ -13,5 +13,5 @@ void require_encoder(const std::filesystem::path& film);
 
 /// Writes a film of these pictures, in this order. The file appears only when it is complete. Throws
 /// candela::Error (failure).
-void encode(const std::vector<std::filesystem::path>& pictures, double frames_per_second,
+void encode(const std::vector<std::filesystem::path>& images, double frames_per_second,
             const std::filesystem::path& film);

@@ -15,14 +15,14 @@ namespace {
 /// As many frames as the disk takes at once, in no more memory than one large frame.
 std::size_t most_on_their_way(const candela::Film& film) {
     constexpr std::size_t k_most = 8, k_bytes = std::size_t{1} << 27;
-    const candela::PictureView view = film.view();
+    const candela::ImageView view = film.view();
     return std::clamp(k_bytes / (view.bytes.size_bytes() + view.reals.size_bytes() + 1), std::size_t{1},
                       k_most);
 }
 
 }  // namespace
 
-FrameWriter::FrameWriter(candela::Registry& registry, candela::PictureFormat format, int threads)
+FrameWriter::FrameWriter(candela::Registry& registry, candela::OutputFormat format, int threads)
     : registry_(registry), format_(std::move(format)), threads_(threads) {}
 
 // A future's destructor waits for its work.
@@ -35,8 +35,8 @@ void FrameWriter::write(const candela::Film& film, const fs::path& file, const s
         candela::with_threads(
             threads_,
             [&] {
-                candela::write_picture(copy, format_, file, registry_, candela::Existing::replaced,
-                                       candela::Links::not_followed);
+                candela::write_image(copy, format_, file, registry_, candela::Existing::replaced,
+                                     candela::Links::not_followed);
             },
             k_milliseconds * copy.width() * copy.height());
         record(file, inputs, candela::Links::not_followed);

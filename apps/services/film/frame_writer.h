@@ -15,7 +15,7 @@ import candela.render;
 class FrameWriter {
   public:
     /// `threads`: for encoding each picture.
-    FrameWriter(candela::Registry& registry, candela::PictureFormat format, int threads);
+    FrameWriter(candela::Registry& registry, candela::OutputFormat format, int threads);
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
     /// Waits until all frames are written.
@@ -30,7 +30,7 @@ class FrameWriter {
     void wait_for_all_but(std::size_t count);
 
     candela::Registry& registry_;
-    candela::PictureFormat format_;
+    candela::OutputFormat format_;
     int threads_;
     std::deque<std::future<void>> on_their_way_;
 };

@@ -89,7 +89,7 @@ std::optional<std::string> record_text(const fs::path& picture, const std::strin
 
 }  // namespace
 
-InputFingerprints::InputFingerprints(candela::Registry& registry, const candela::PictureFormat& format)
+InputFingerprints::InputFingerprints(candela::Registry& registry, const candela::OutputFormat& format)
     : registry_(registry), format_(format) {}
 
 const std::string& InputFingerprints::of_file(const fs::path& file) {

@@ -14,7 +14,7 @@ import candela.util;
 /// plugins' libraries, and Candela itself. Reads libraries and files once. One thread.
 class InputFingerprints {
   public:
-    InputFingerprints(candela::Registry& registry, const candela::PictureFormat& format);
+    InputFingerprints(candela::Registry& registry, const candela::OutputFormat& format);
 
     /// The fingerprint of one frame. Throws candela::Error (failure) if a file cannot be read.
     std::string of(const candela::SceneDraft& draft);
@@ -24,7 +24,7 @@ class InputFingerprints {
     std::string of_plugin(candela::PluginKind kind, const std::string& name);
 
     candela::Registry& registry_;
-    candela::PictureFormat format_;
+    candela::OutputFormat format_;
     std::map<std::filesystem::path, std::string> files_;
 };
 
@@ -35,14 +35,14 @@ enum class CacheState {
     other     // made from other inputs
 };
 /// `links`: whether the picture may be a link, because the user chose its name.
-CacheState recorded(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);
+CacheState recorded(const std::filesystem::path& image, const std::string& inputs, candela::Links links);
 
 /// Like recorded(), for a picture whose name the user chose, whatever it was made from.
-bool is_recorded(const std::filesystem::path& picture);
+bool is_recorded(const std::filesystem::path& image);
 
 /// Whether the picture is complete and was made from these inputs.
-bool is_up_to_date(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);
+bool is_up_to_date(const std::filesystem::path& image, const std::string& inputs, candela::Links links);
 
 /// Records what the picture was made from, in the folder .candela next to it. Throws candela::Error
 /// (failure).
-void record(const std::filesystem::path& picture, const std::string& inputs, candela::Links links);
+void record(const std::filesystem::path& image, const std::string& inputs, candela::Links links);

@@ -148,17 +148,17 @@ std::vector<fs::path> Container::named_files(bool with_images) const {
     return files;
 }
 
-Picture Container::picture(std::size_t image) {
-    const Json& from = array_of(json_, "images").at(image);
+Image Container::image(std::size_t index) {
+    const Json& from = array_of(json_, "images").at(index);
     const std::string uri = text_of(from, "uri");
     if (!uri.empty() && !uri.starts_with("data:")) return {part_named(uri)};
-    const auto index = index_of(from, "bufferView");
-    if (uri.empty() && !index) fail("it has neither a name nor bytes");
+    const auto embedded = index_of(from, "bufferView");
+    if (uri.empty() && !embedded) fail("it has neither a name nor bytes");
     const mesh_io::Array<char> own = uri.empty() ? mesh_io::Array<char>() : data_of(uri);
-    const std::string_view bytes = uri.empty() ? view(*index) : mesh_io::text_of(own);
+    const std::string_view bytes = uri.empty() ? view(*embedded) : mesh_io::text_of(own);
     std::string content(bytes);
     const char* const extension = extension_of(content);
-    return {fmt::format("{}.{}", stem_of(text_of(from, "name"), image), extension), std::move(content)};
+    return {fmt::format("{}.{}", stem_of(text_of(from, "name"), index), extension), std::move(content)};
 }
 
 }  // namespace importing::gltf

@@ -37,7 +37,7 @@ class Container {
 
     /// An image: a file in the model's folder or below it, or bytes in the model itself. Throws
     /// candela::Error (failure).
-    Picture picture(std::size_t image);
+    Image image(std::size_t index);
 
     /// All numbers of an accessor with that number of components. Throws candela::Error (failure).
     std::vector<double> values(std::size_t accessor, std::size_t components);

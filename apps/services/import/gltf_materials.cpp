@@ -87,20 +87,20 @@ Material Materials::metallic_roughness(const Json& from, const std::string& name
     const std::vector<double> dielectric = dielectric_of(from);
     Material result{.name = {}, .reflection = "ggx", .color = encoded(base)};
     std::vector<double> metal = base;
-    Image* image = nullptr;
+    MeasuredImage* image = nullptr;
     if (const Json* const info = find(pbr, "baseColorTexture")) {
         image = show(*info, name, result);
         for (std::size_t k = 0; image != nullptr && k < 3; ++k) metal[k] *= image->means.linear[k];
     }
     if (const Json* const info = find(pbr, "metallicRoughnessTexture")) {
-        if (const Image* const map = image_of(*info, name)) {
+        if (const MeasuredImage* const map = image_of(*info, name)) {
             roughness *= map->means.stored[1];
             metallic *= map->means.stored[2];
             model_.count("roughness maps", "only the mean of a texture of metalness and roughness is used",
                          "only the means of {} textures of metalness and roughness are used");
         }
     }
-    if (result.picture && metallic > 0.05)
+    if (result.image && metallic > 0.05)
         model_.count("tinted metals",
                      "the highlights of a textured metal have the mean colour of its texture",
                      "the highlights of {} textured metals have the mean colour of their textures");
@@ -121,12 +121,12 @@ Material Materials::metallic_roughness(const Json& from, const std::string& name
 Material Materials::specular_glossiness(const Json& from, const Json& extension, const std::string& name) {
     const std::vector<double> base = factor_of(extension, "diffuseFactor", 4);
     std::vector<double> specular = factor_of(extension, "specularFactor", 3);
-    Image* image = nullptr;
+    MeasuredImage* image = nullptr;
     double glossiness = std::clamp(number(extension, "glossinessFactor", 1), 0.0, 1.0);
     Material result{.name = {}, .reflection = "ggx", .color = encoded(base)};
     if (const Json* const info = find(extension, "diffuseTexture")) image = show(*info, name, result);
     if (const Json* const info = find(extension, "specularGlossinessTexture")) {
-        if (const Image* const map = image_of(*info, name)) {
+        if (const MeasuredImage* const map = image_of(*info, name)) {
             for (std::size_t k = 0; k < 3; ++k) specular[k] *= map->means.linear[k];
             glossiness *= map->means.opacity;
             model_.count("gloss maps", "only the mean of a texture of highlights and gloss is used",
@@ -145,7 +145,7 @@ Material Materials::specular_glossiness(const Json& from, const Json& extension,
     return result;
 }
 
-void Materials::cut_out(const Json& from, double factor, Image* image, Material& to) {
+void Materials::cut_out(const Json& from, double factor, MeasuredImage* image, Material& to) {
     const std::string mode = text_of(from, "alphaMode");
     if (mode != "MASK" && mode != "BLEND") return;
     const double level = mode == "BLEND" ? 0.5 : number(from, "alphaCutoff", 0.5) / std::max(factor, 1e-3);
@@ -198,7 +198,7 @@ void Materials::note_losses(const Json& from) {
                          "{} textures of specular reflectance are left out; their factors apply everywhere");
 }
 
-Materials::Image* Materials::show(const Json& info, const std::string& material, Material& to) {
+Materials::MeasuredImage* Materials::show(const Json& info, const std::string& material, Material& to) {
     if (index_of(info, "texCoord").value_or(0) != 0) {
         model_.count("texture coordinates", "a texture that uses further texture coordinates is left out",
                      "{} textures that use further texture coordinates are left out");
@@ -208,7 +208,7 @@ Materials::Image* Materials::show(const Json& info, const std::string& material,
         model_.count("KHR_texture_transform",
                      "the extension 'KHR_texture_transform' of a texture is left out",
                      "the extension 'KHR_texture_transform' of {} textures is left out");
-    Image* const image = image_of(info, material);
+    MeasuredImage* const image = image_of(info, material);
     if (image == nullptr) return nullptr;
     const Json& texture = *element(array_of(json_, "textures"), index_of(info, "index"));
     if (const Json* const sampler = element(array_of(json_, "samplers"), index_of(texture, "sampler"))) {
@@ -218,15 +218,15 @@ Materials::Image* Materials::show(const Json& info, const std::string& material,
         if (s == 33648 || t == 33648) model_.note("mirrored repetition of textures becomes plain repetition");
         if (s != t) model_.note("textures that repeat in only one direction repeat in both");
     }
-    if (!image->picture) {
-        image->picture = model_.pictures.size();
-        model_.pictures.push_back(image->file);
+    if (!image->index) {
+        image->index = model_.images.size();
+        model_.images.push_back(image->file);
     }
-    to.picture = image->picture;
+    to.image = image->index;
     return image;
 }
 
-Materials::Image* Materials::image_of(const Json& info, const std::string& material) {
+Materials::MeasuredImage* Materials::image_of(const Json& info, const std::string& material) {
     const Json* const texture = element(array_of(json_, "textures"), index_of(info, "index"));
     std::optional<std::size_t> source;
     if (texture != nullptr) {
@@ -244,12 +244,12 @@ Materials::Image* Materials::image_of(const Json& info, const std::string& mater
     return image_at(*source, material);
 }
 
-Materials::Image* Materials::image_at(std::size_t index, const std::string& material) {
+Materials::MeasuredImage* Materials::image_at(std::size_t index, const std::string& material) {
     const auto [known, is_new] = images_.try_emplace(index);
     if (!is_new) return known->second ? &*known->second : nullptr;
     try {
-        Picture found = container_.picture(index);
-        const auto [pixels, other_format] = read_picture(found, registry_);
+        Image found = container_.image(index);
+        const auto [pixels, other_format] = read_image(found, registry_);
         found.brightness = brightness_of(pixels);
         if (!other_format.empty())
             model_.count("misnamed pictures",
@@ -259,7 +259,7 @@ Materials::Image* Materials::image_at(std::size_t index, const std::string& mate
                                      "of {} as {}",
                                      material, other_format));
         known->second =
-            Image{.file = std::move(found), .means = means_of(pixels), .opacity = opacity_of(pixels)};
+            MeasuredImage{.file = std::move(found), .means = means_of(pixels), .opacity = opacity_of(pixels)};
         return &*known->second;
     } catch (const candela::Error& problem) {
         model_.count(

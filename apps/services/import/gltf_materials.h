@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "import/gltf_container.h"
+#include "import/images.h"
 #include "import/model.h"
-#include "import/pictures.h"
 
 import candela.plugins;
 
@@ -26,30 +26,30 @@ class Materials {
     Material material(std::size_t index);
 
   private:
-    struct Image {
-        Picture file;
+    struct MeasuredImage {
+        Image file;
         Means means;
         OpacityMap opacity;
-        std::optional<std::size_t> cutout{};   // index in the model
-        std::optional<std::size_t> picture{};  // index in the model, once a surface shows it
+        std::optional<std::size_t> cutout{};  // index in the model
+        std::optional<std::size_t> index{};   // index in the model, once a surface shows it
     };
 
     Material metallic_roughness(const Json& from, const std::string& name);
     Material specular_glossiness(const Json& from, const Json& extension, const std::string& name);
     void note_losses(const Json& from);
     /// Cuts a surface along the outline of its texture's opacity if the material asks for that.
-    void cut_out(const Json& from, double factor, Image* image, Material& to);
+    void cut_out(const Json& from, double factor, MeasuredImage* image, Material& to);
     /// Uses a material's colour texture for the surface, and returns its image; null if there is none.
-    Image* show(const Json& info, const std::string& material, Material& to);
+    MeasuredImage* show(const Json& info, const std::string& material, Material& to);
     /// The image of a texture; null if it cannot be read.
-    Image* image_of(const Json& info, const std::string& material);
-    Image* image_at(std::size_t index, const std::string& material);
+    MeasuredImage* image_of(const Json& info, const std::string& material);
+    MeasuredImage* image_at(std::size_t index, const std::string& material);
 
     Container& container_;
     const Json& json_;
     candela::Registry& registry_;
     Model& model_;
-    std::map<std::size_t, std::optional<Image>> images_;
+    std::map<std::size_t, std::optional<MeasuredImage>> images_;
 };
 
 }  // namespace importing::gltf

@@ -123,8 +123,8 @@ void show_backs_alone(Model& model, const candela::Mesh& mesh, const Vector& to_
 
 void write_cutouts(const Request& request, Model& model, Setting& setting) {
     try {
-        for (const Picture& cutout : model.cutouts)
-            setting.cutouts.push_back(request.write_picture(cutout.file.string(), cutout.content));
+        for (const Image& cutout : model.cutouts)
+            setting.cutouts.push_back(request.write_image(cutout.file.string(), cutout.content));
     } catch (const candela::Error& problem) {
         if (problem.category() != candela::ErrorCategory::bad_request) throw;
         // A printed scene has no folder for other files.
@@ -156,8 +156,8 @@ double brightness_for(const Model& model) {
         is_physical = is_physical || material.reflection == "ggx";
         // Bright spots of a picture are somewhat brighter than its mean.
         constexpr double k_spots = 1.3;
-        const double picture =
-            material.picture ? std::min(1.0, k_spots * model.pictures[*material.picture].brightness) : 1;
+        const double image =
+            material.image ? std::min(1.0, k_spots * model.images[*material.image].brightness) : 1;
         double sum = 0;
         // For the key light with most of the fill light, and for the ambient light.
         constexpr double k_direct = 1.9, k_ambient = 0.6;
@@ -165,7 +165,7 @@ double brightness_for(const Model& model) {
             const double factor = name == "kd" ? k_direct : name == "ka" ? k_ambient : 0;
             sum += factor * *std::ranges::max_element(value);
         }
-        brightest = std::max(brightest, picture * sum);
+        brightest = std::max(brightest, image * sum);
     }
     if (is_physical) return 0.55;
     return brightest > 1 ? 1 / brightest : 1;
@@ -214,15 +214,15 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     setting.origin = geometry.origin;
     setting.allows_outside = request.allow_outside;
     setting.tolerance = geometry.bounds.tolerance();
-    if (!model.pictures.empty() && !geometry.has_uv) {
+    if (!model.images.empty() && !geometry.has_uv) {
         model.note("its textures are left out; it has no texture coordinates");
-        model.pictures.clear();
-        for (Material& material : model.materials) material.picture.reset();
+        model.images.clear();
+        for (Material& material : model.materials) material.image.reset();
     }
-    for (const Picture& picture : model.pictures)
-        setting.pictures.push_back(picture.content.empty()
-                                       ? request.name_of_picture(picture.file)
-                                       : request.write_picture(picture.file.string(), picture.content));
+    for (const Image& image : model.images)
+        setting.images.push_back(image.content.empty()
+                                     ? request.name_of_image(image.file)
+                                     : request.write_image(image.file.string(), image.content));
     if (geometry.has_uv) write_cutouts(request, model, setting);
     constexpr double k_aspect = 4.0 / 3;
     const Bounds& bounds = geometry.bounds;
@@ -260,7 +260,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
             .notes = model.notes,
             .objects = model.parts.size(),
             .lights = setting.lights.size(),
-            .textures = model.pictures.size(),
+            .textures = model.images.size(),
             .triangles = geometry.file};
 }
 

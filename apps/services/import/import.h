@@ -25,9 +25,9 @@ struct Request {
     std::string shown_file;
     /// Writes a picture embedded in the file to a place that the scene can read, and returns its name in the
     /// scene.
-    std::function<std::string(const std::string& name, const std::string& content)> write_picture;
+    std::function<std::string(const std::string& name, const std::string& content)> write_image;
     /// The name, in the scene, of an existing picture.
-    std::function<std::string(const std::filesystem::path& file)> name_of_picture;
+    std::function<std::string(const std::filesystem::path& file)> name_of_image;
 };
 
 struct Imported {

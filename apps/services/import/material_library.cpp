@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "import/images.h"
 #include "import/named_file.h"
-#include "import/pictures.h"
 #include "mesh_io/bad_file.h"
 #include "mesh_io/text_scanner.h"
 
@@ -154,13 +154,13 @@ Material MaterialLibraries::material(const std::string& name) {
         material.values.emplace_back(parameter, are_all(*rgb, (*rgb)[0]) ? std::vector{(*rgb)[0]} : *rgb);
     material.values.push_back({"shininess", {shininess}});
     if (!d.texture.empty()) {
-        material.picture = picture(name, description);
+        material.image = image(name, description);
         material.clamps = d.clamps;
     }
     return material;
 }
 
-std::optional<std::size_t> MaterialLibraries::picture(const std::string& material, const Description& of) {
+std::optional<std::size_t> MaterialLibraries::image(const std::string& material, const Description& of) {
     const auto say = [&](const char* kind, std::string_view of_one, std::string_view of_many,
                          std::string_view rest = "") {
         const std::string which = fmt::format("'{}' of material '{}'", of.material.texture, material);
@@ -178,21 +178,21 @@ std::optional<std::size_t> MaterialLibraries::picture(const std::string& materia
         return std::nullopt;
     }
     const fs::path file = candela::canonical_path(found->path);
-    const auto [known, is_new] = pictures_.try_emplace(file);
+    const auto [known, is_new] = images_.try_emplace(file);
     if (!is_new) return known->second;
     if (found->is_renamed)
         say("renamed textures", "is read from", "are read from files with other names",
             fmt::format(" '{}'", found->path.filename().string()));
-    Picture picture{file};
+    Image image{file};
     try {
         // A scene is UTF-8 and could not name the file.
         if (candela::first_invalid_byte(file.string())) {
-            picture.content = candela::read_text_file(file).value_or("");
-            picture.file = fmt::format("texture_{}{}", model_.pictures.size(), file.extension().string());
-            if (candela::first_invalid_byte(picture.file.string())) picture.file.replace_extension();
+            image.content = candela::read_text_file(file).value_or("");
+            image.file = fmt::format("texture_{}{}", model_.images.size(), file.extension().string());
+            if (candela::first_invalid_byte(image.file.string())) image.file.replace_extension();
         }
-        const ReadPicture read = read_picture(picture, registry_);
-        picture.brightness = brightness_of(read.pixels);
+        const ReadImage read = read_image(image, registry_);
+        image.brightness = brightness_of(read.pixels);
         if (!read.other_format.empty())
             say("misnamed textures",
                 fmt::format("is read as {}, according to its content", read.other_format),
@@ -201,8 +201,8 @@ std::optional<std::size_t> MaterialLibraries::picture(const std::string& materia
         say("broken textures", "is left out", "are left out", fmt::format(": {}", problem.what()));
         return std::nullopt;
     }
-    model_.pictures.push_back(std::move(picture));
-    return known->second = model_.pictures.size() - 1;
+    model_.images.push_back(std::move(image));
+    return known->second = model_.images.size() - 1;
 }
 
 }  // namespace importing::obj

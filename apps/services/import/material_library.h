@@ -43,7 +43,7 @@ class MaterialLibraries {
     /// Null if there is none.
     const Description* find(const std::string& name) const;
     std::vector<double> coefficients(const std::vector<double>& value, double otherwise);
-    std::optional<std::size_t> picture(const std::string& material, const Description& of);
+    std::optional<std::size_t> image(const std::string& material, const Description& of);
 
     Model& model_;
     const Source& source_;
@@ -51,8 +51,8 @@ class MaterialLibraries {
     std::set<std::string, std::less<>> named_;  // by mtllib statements
     std::set<std::filesystem::path> known_files_;
     std::map<std::string, Description, std::less<>> descriptions_;
-    std::map<std::string, std::string, std::less<>> commented_;             // names without their comments
-    std::map<std::filesystem::path, std::optional<std::size_t>> pictures_;  // indices in the model, by file
+    std::map<std::string, std::string, std::less<>> commented_;           // names without their comments
+    std::map<std::filesystem::path, std::optional<std::size_t>> images_;  // indices in the model, by file
 };
 
 }  // namespace importing::obj

@@ -52,7 +52,7 @@ struct Track {
 };
 
 /// A picture for surfaces: an existing file, or the content of one to write.
-struct Picture {
+struct Image {
     std::filesystem::path file;  // absolute; or the name to give it
     std::string content{};       // empty: the file exists
     double brightness = 1;       // the mean of its pixels' largest channels, linear
@@ -72,7 +72,7 @@ struct Material {
     std::string reflection = "phong";
     Vector color{255, 255, 255};                                        // 0-255
     std::vector<std::pair<std::string, std::vector<double>>> values{};  // parameters of the reflection model
-    std::optional<std::size_t> picture{};                               // index in Model::pictures
+    std::optional<std::size_t> image{};                                 // index in Model::pictures
     bool clamps = false;                                                // the picture is clamped at its edges
     std::optional<std::size_t> cutout{};                                // index in Model::cutouts
     double cutout_level = 0.5;
@@ -129,8 +129,8 @@ struct Moving {
 struct Model {
     std::vector<Material> materials;
     std::vector<Part> parts;  // at least one
-    std::vector<Picture> pictures;
-    std::vector<Picture> cutouts;  // greymaps of opacity
+    std::vector<Image> images;
+    std::vector<Image> cutouts;  // greymaps of opacity
     std::optional<Camera> camera;
     std::vector<Light> lights;
     Moving moving{};

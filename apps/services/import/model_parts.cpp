@@ -100,10 +100,10 @@ bool is_part_of_ply(const fs::path& model, const fs::path& file) {
     });
 }
 
-bool is_named_in_gltf(const fs::path& model, const fs::path& file, bool with_pictures) {
+bool is_named_in_gltf(const fs::path& model, const fs::path& file, bool with_images) {
     try {
         const gltf::Container container(Source{.file = model});
-        return std::ranges::any_of(container.named_files(with_pictures),
+        return std::ranges::any_of(container.named_files(with_images),
                                    [&](const fs::path& named) { return is_file(named, file); });
     } catch (const candela::Error&) {
         return false;  // its reader will report the error

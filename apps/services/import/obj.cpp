@@ -56,7 +56,7 @@ bool is_beside(const fs::path& part, const fs::path& model) {
 
 bool Source::may_read(const fs::path& part) const { return allows_outside || is_beside(part, file); }
 
-bool is_readable_picture(const fs::path& file, candela::Registry& registry) {
+bool is_readable_image(const fs::path& file, candela::Registry& registry) {
     return candela::reader_of(file, registry) != nullptr;
 }
 

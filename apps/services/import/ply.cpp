@@ -44,10 +44,10 @@ Model read_ply(const Source& source, candela::Registry& registry) {
         model.note(fmt::format("its texture '{}' does not exist", name));
         return model;
     }
-    const fs::path& picture = found->path;
-    if (!source.may_read(picture)) {
+    const fs::path& image = found->path;
+    if (!source.may_read(image)) {
         model.note(fmt::format("the texture '{}' is outside the model's folder{}", name, k_outside_remedy));
-    } else if (!is_readable_picture(picture, registry)) {
+    } else if (!is_readable_image(image, registry)) {
         model.note(fmt::format("no image plugin reads the format of the texture '{}'{}", name,
                                candela::possible_formats(registry, candela::FormatUse::read)));
     } else {
@@ -55,8 +55,8 @@ Model read_ply(const Source& source, candela::Registry& registry) {
         model.materials.push_back(
             {.name = "",
              .values = {{"ka", {0.3}}, {"kd", {0.75}}, {"ks", {0.2}}, {"shininess", {40}}},
-             .picture = 0});
-        model.pictures.push_back({candela::canonical_path(picture)});
+             .image = 0});
+        model.images.push_back({candela::canonical_path(image)});
     }
     return model;
 }

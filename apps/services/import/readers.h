@@ -41,6 +41,6 @@ std::vector<std::string> textures_of_ply(const std::filesystem::path& file);
 bool is_beside(const std::filesystem::path& part, const std::filesystem::path& model);
 
 /// Whether an image plugin reads the picture, or, if it does not exist, pictures of that name.
-bool is_readable_picture(const std::filesystem::path& file, candela::Registry& registry);
+bool is_readable_image(const std::filesystem::path& file, candela::Registry& registry);
 
 }  // namespace importing

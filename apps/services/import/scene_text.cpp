@@ -174,7 +174,7 @@ class Writer {
 
     void write(const Part& part) {
         const Material* const material = part.material ? &model_.materials[*part.material] : nullptr;
-        const bool is_textured = material != nullptr && material->picture && setting_.is_textured;
+        const bool is_textured = material != nullptr && material->image && setting_.is_textured;
         begin("[[object]]");
         object_names_.push_back(
             add_name(candela::printable(material != nullptr && !material->name.empty() ? material->name
@@ -204,7 +204,7 @@ class Writer {
             add("color", setting_.has_vertex_colors ? "[255, 255, 255]" : "[200, 200, 200]");
         }
         if (is_textured) {
-            add("color_texture", candela::toml_text(setting_.pictures[*material->picture]));
+            add("color_texture", candela::toml_text(setting_.images[*material->image]));
             if (material->clamps) add("color_texture_wrap", "\"clamp\"");
         }
         if (material != nullptr && material->reflection != reflection_)

@@ -3,7 +3,7 @@
 
 #include <string>
 
-enum class Starter { picture, film };
+enum class Starter { image, film };
 
 /// A valid scene whose comments explain each key.
 std::string starter_scene(Starter starter);

@@ -155,21 +155,21 @@ Bias bias_of(const Expectation& expected, const std::vector<std::uint8_t>& progr
     return bias;
 }
 
-RgbPicture read_ppm(const std::filesystem::path& file) {
+RgbImage read_ppm(const std::filesystem::path& file) {
     const auto content = candela::read_text_file(file);
-    RgbPicture picture;
+    RgbImage image;
     std::string magic;
     int largest = 0;
     std::istringstream header(content.value_or(""));
-    header >> magic >> picture.width >> picture.height >> largest;
-    const auto size = 3 * static_cast<std::size_t>(std::max(picture.width, 0)) *
-                      static_cast<std::size_t>(std::max(picture.height, 0));
+    header >> magic >> image.width >> image.height >> largest;
+    const auto size = 3 * static_cast<std::size_t>(std::max(image.width, 0)) *
+                      static_cast<std::size_t>(std::max(image.height, 0));
     const auto begin = static_cast<std::size_t>(std::max<std::streamoff>(header.tellg(), 0)) + 1;
     if (!header || magic != "P6" || largest != 255 || !content || content->size() != begin + size)
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' is not the picture that the program wrote", file.string()));
-    picture.bytes.assign(content->begin() + static_cast<std::ptrdiff_t>(begin), content->end());
-    return picture;
+    image.bytes.assign(content->begin() + static_cast<std::ptrdiff_t>(begin), content->end());
+    return image;
 }
 
 }  // namespace verify

@@ -52,12 +52,12 @@ struct Bias {
 /// `program`: red, green and blue of the program's picture, which has the expectation's size.
 Bias bias_of(const Expectation& expected, const std::vector<std::uint8_t>& program);
 
-struct RgbPicture {
+struct RgbImage {
     int width = 0, height = 0;
     std::vector<std::uint8_t> bytes;
 };
 
 /// Reads a binary 8-bit PPM file (P6) as candela-diff writes it, without comments. Throws candela::Error.
-RgbPicture read_ppm(const std::filesystem::path& file);
+RgbImage read_ppm(const std::filesystem::path& file);
 
 }  // namespace verify

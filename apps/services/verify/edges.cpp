@@ -146,7 +146,7 @@ float level_of(float intensity, candela::ColorEncoding encoding) {
 
 }  // namespace
 
-std::vector<float> unrounded_picture(const candela::RenderScene& scene) {
+std::vector<float> unrounded_image(const candela::RenderScene& scene) {
     const auto encoding = scene.image.color_management;
     candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real, encoding);
     candela::render(scene, film, {});

@@ -32,7 +32,7 @@ constexpr float edge_levels(double tolerance) {
 Sensitivity sensitivity_of(candela::RenderScene& scene, const candela::Film& reference, float levels);
 
 /// Candela's picture before rounding: 0 to 255, encoded as in a file.
-std::vector<float> unrounded_picture(const candela::RenderScene& scene);
+std::vector<float> unrounded_image(const candela::RenderScene& scene);
 
 /// Edges as a picture, with white for edges.
 candela::Film mask_of(const std::vector<bool>& edges, int width, int height);

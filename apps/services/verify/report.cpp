@@ -65,7 +65,7 @@ bool is_beyond(const Estimate& estimate, double limit, const Limits& limits) {
 
 const char* brighter_or_darker(double difference) { return difference > 0 ? "brighter" : "darker"; }
 
-std::string picture(const std::string& file, const std::string& caption) {
+std::string image(const std::string& file, const std::string& caption) {
     return fmt::format("<figure><img src=\"{}\" alt=\"{}\"><figcaption>{}</figcaption></figure>\n", file,
                        caption, caption);
 }
@@ -196,16 +196,15 @@ std::string report_page(const std::string& title, const std::vector<Verdict>& ve
         "there</th><th>perceptible</th><th>inside</th><th>gain</th><th>displaced</th><th></th></tr>\n",
         name, k_style, limits.maximum, limits.mean, 100 * limits.gain, limits.displacement);
     for (const Verdict& v : verdicts) text += row(v, limits);
-    text += "</table>\n<div class=\"pictures\">\n" + picture("reference.png", "Candela") +
-            picture("edges.png", "edges") + "</div>\n";
+    text += "</table>\n<div class=\"pictures\">\n" + image("reference.png", "Candela") +
+            image("edges.png", "edges") + "</div>\n";
     for (const Verdict& v : verdicts) {
         text += fmt::format("<h2>{}</h2>\n", v.target);
         for (const std::string& remark : remarks_on(v, limits))
             text += fmt::format("<p>{}</p>\n", candela::target::html_text(remark));
         if (!v.failure.empty()) continue;
-        text += "<div class=\"pictures\">\n" + picture(v.target + ".png", v.target) +
-                picture(v.target + "-difference.png", "difference; brightest where it is largest") +
-                "</div>\n";
+        text += "<div class=\"pictures\">\n" + image(v.target + ".png", v.target) +
+                image(v.target + "-difference.png", "difference; brightest where it is largest") + "</div>\n";
     }
     return text + "</html>\n";
 }

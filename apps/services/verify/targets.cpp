@@ -34,9 +34,9 @@ void LoadedTarget::build(const fs::path& directory) const try {
     candela::rethrow_as_plugin_error(PluginKind::target, name_);
 }
 
-void LoadedTarget::draw(const fs::path& directory, const fs::path& picture) const try {
+void LoadedTarget::draw(const fs::path& directory, const fs::path& image) const try {
     candela::SystemPrograms programs;
-    target_->draw(directory.c_str(), picture.c_str(), programs);
+    target_->draw(directory.c_str(), image.c_str(), programs);
 } catch (...) {
     candela::rethrow_as_plugin_error(PluginKind::target, name_);
 }

@@ -26,7 +26,7 @@ class LoadedTarget {
         return candela::program_of(*target_, name_, scene);
     }
     void build(const std::filesystem::path& directory) const;
-    void draw(const std::filesystem::path& directory, const std::filesystem::path& picture) const;
+    void draw(const std::filesystem::path& directory, const std::filesystem::path& image) const;
     /// Returns an exit code.
     int show(const std::filesystem::path& directory) const;
 

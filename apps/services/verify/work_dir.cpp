@@ -42,7 +42,7 @@ Workplace::Workplace(const std::optional<std::string>& report) : temporary_("can
 
 void Workplace::finish(const std::vector<LoadedTarget>& targets) {
     if (!draft_) return;
-    std::vector<fs::path> outdated = pictures_of(targets);
+    std::vector<fs::path> outdated = images_of(targets);
     outdated.emplace_back("index.html");
     for (const LoadedTarget& target : targets) {
         // CMake refuses a moved folder unless its cache is deleted.
@@ -62,7 +62,7 @@ std::string Workplace::in_place(std::string message) const {
     return message;
 }
 
-std::vector<fs::path> Workplace::pictures_of(const std::vector<LoadedTarget>& targets) {
+std::vector<fs::path> Workplace::images_of(const std::vector<LoadedTarget>& targets) {
     std::vector<fs::path> names{"reference.png", "edges.png"};
     for (const LoadedTarget& target : targets)
         for (const char* const end : {".png", "-difference.png"}) names.emplace_back(target.name() + end);

@@ -27,7 +27,7 @@ class Workplace {
     std::string in_place(std::string message) const;
 
     /// The names of a report's pictures.
-    static std::vector<std::filesystem::path> pictures_of(const std::vector<LoadedTarget>& targets);
+    static std::vector<std::filesystem::path> images_of(const std::vector<LoadedTarget>& targets);
 
   private:
     TemporaryFolder temporary_;

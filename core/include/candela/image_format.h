@@ -12,7 +12,7 @@
 namespace candela {
 
 /// A finished picture: red, green, blue interleaved, rows from the top, no padding between or after rows.
-struct PictureView {
+struct ImageView {
     int width = 0;
     int height = 0;
     PixelType pixels = PixelType::byte;            // the descriptor's choice: fills `bytes` or `reals`
@@ -22,7 +22,7 @@ struct PictureView {
 };
 
 /// One number per pixel of a picture with layers, rows from the top, no padding.
-struct PictureChannel {
+struct ImageChannel {
     const char* name = "";  // "R", or with the layer's name as a prefix: "diffuse.R"
     std::span<const float> values{};
 };
@@ -37,9 +37,9 @@ class CANDELA_EXPORT ByteSink {
 };
 
 /// Receives the picture that an image plugin reads. Owned by the host.
-class CANDELA_EXPORT PictureSink {
+class CANDELA_EXPORT ImageSink {
   public:
-    virtual ~PictureSink();
+    virtual ~ImageSink();
     /// Returns memory for the picture: red, green, blue interleaved, rows from the top, no padding.
     /// `is_encoded`: the values are sRGB-encoded, 0 to 1; otherwise they are intensities. May throw if the
     /// picture is too large.
@@ -55,17 +55,17 @@ class CANDELA_EXPORT ImageFormat : public Instance {
     ~ImageFormat() override;
 
     /// Writes `picture` in the format of `extension`, one of the descriptor's. May throw std::exception.
-    virtual void write(const PictureView& picture, const char* extension, ByteSink& sink) const = 0;
+    virtual void write(const ImageView& image, const char* extension, ByteSink& sink) const = 0;
 
     /// Writes a picture with any number of channels, in a format that the descriptor declares to have layers.
     /// The first three are the red, green and blue of the picture itself, all values are linear and unbounded
     /// (infinity included), and names are unique UTF-8. May throw std::exception.
-    virtual void write_layers(int width, int height, std::span<const PictureChannel> channels,
+    virtual void write_layers(int width, int height, std::span<const ImageChannel> channels,
                               const char* extension, ByteSink& sink) const;
 
     /// Reads the picture at `path`, in a format that the descriptor declares as readable. May throw
     /// std::exception.
-    virtual void read(const char* path, PictureSink& sink) const;
+    virtual void read(const char* path, ImageSink& sink) const;
 };
 
 }  // namespace candela

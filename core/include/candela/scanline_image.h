@@ -11,24 +11,24 @@
 namespace candela {
 
 /// A picture whose rows are made on request, from the top. Owned by the host.
-class CANDELA_EXPORT PictureRows {
+class CANDELA_EXPORT ImageRows {
   public:
-    virtual ~PictureRows();
+    virtual ~ImageRows();
     /// Returns the next `count` rows (at least 1), or those that are left, as a picture of that height. Valid
     /// until the next call. May throw.
-    virtual PictureView next(int count) = 0;
+    virtual ImageView next(int count) = 0;
 };
 
 /// Rows of a picture that is in memory.
-class CANDELA_EXPORT ViewedRows final : public PictureRows {
+class CANDELA_EXPORT ViewedRows final : public ImageRows {
   public:
     /// The pixels must outlive this.
-    explicit ViewedRows(const PictureView& picture);
+    explicit ViewedRows(const ImageView& image);
     ~ViewedRows() override;
-    PictureView next(int count) override;
+    ImageView next(int count) override;
 
   private:
-    PictureView picture_;
+    ImageView image_;
     int done_ = 0;
 };
 
@@ -50,7 +50,7 @@ class CANDELA_EXPORT ScanlineImageFormat {
 
     /// Writes the same bytes as ImageFormat::write() for the same pixels. `whole`: the picture without its
     /// pixels. The sink is a RandomAccessSink if the file allows it. May throw std::exception.
-    virtual void write_rows(const PictureView& whole, PictureRows& rows, const char* extension,
+    virtual void write_rows(const ImageView& whole, ImageRows& rows, const char* extension,
                             ByteSink& sink) const = 0;
 };
 

@@ -60,7 +60,7 @@ class Jpeg final : public candela::ImageFormat {
   public:
     explicit Jpeg(const JpegOptions& options) : options_(options) {}
 
-    void write(const candela::PictureView& picture, const char*, candela::ByteSink& sink) const override {
+    void write(const candela::ImageView& picture, const char*, candela::ByteSink& sink) const override {
         const Handle handle = require(tjInitCompress());
         unsigned char* bytes = nullptr;
         unsigned long size = 0;
@@ -72,7 +72,7 @@ class Jpeg final : public candela::ImageFormat {
         sink.write(std::as_bytes(std::span(bytes, size)));
     }
 
-    void read(const char* path, candela::PictureSink& sink) const override {
+    void read(const char* path, candela::ImageSink& sink) const override {
         const std::string file = content_of(path);
         if (!file.starts_with("\xff\xd8\xff")) {
             throw std::runtime_error(file.starts_with("\x89PNG")

@@ -25,7 +25,7 @@ constexpr int k_width = 75, k_height = 41;  // not a whole number of blocks
 using Bytes = std::vector<unsigned char>;
 
 /// Slowly changing colours with a little noise.
-Bytes smooth_picture(std::size_t channels) {
+Bytes smooth_image(std::size_t channels) {
     std::minstd_rand random(5);
     Bytes pixels;
     for (int y = 0; y < k_height; ++y) {
@@ -67,10 +67,10 @@ std::string written(const Bytes& pixels, int quality) {
     return memory.bytes;
 }
 
-double root_mean_square_difference(const Decoded& picture, const Bytes& pixels) {
+double root_mean_square_difference(const Decoded& image, const Bytes& pixels) {
     double sum = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-        const double difference = 255 * static_cast<double>(picture.values.at(i)) - pixels[i];
+        const double difference = 255 * static_cast<double>(image.values.at(i)) - pixels[i];
         sum += difference * difference;
     }
     return std::sqrt(sum / static_cast<double>(pixels.size()));
@@ -90,7 +90,7 @@ TEST_CASE("a JPEG of any kind is read the same as by OpenImageIO") {
         CHECK(std::ranges::equal(ours.values, theirs.values,
                                  [&](float a, float b) { return std::abs(a - b) <= tolerance; }));
     };
-    const Bytes rgb = smooth_picture(3), cmyk = smooth_picture(4), grey = smooth_picture(1);
+    const Bytes rgb = smooth_image(3), cmyk = smooth_image(4), grey = smooth_image(1);
     check("4:4:4", jpeg_of(rgb, TJPF_RGB, TJSAMP_444));
     check("4:2:2", jpeg_of(rgb, TJPF_RGB, TJSAMP_422));
     check("4:2:0", jpeg_of(rgb, TJPF_RGB, TJSAMP_420));
@@ -101,7 +101,7 @@ TEST_CASE("a JPEG of any kind is read the same as by OpenImageIO") {
 }
 
 TEST_CASE("a JPEG of higher quality is larger and closer to its picture") {
-    const Bytes pixels = smooth_picture(3);
+    const Bytes pixels = smooth_image(3);
     const fs::path file = scratch_directory() / "written.jpg";
     double last_difference = 1e9;
     std::size_t last_size = 0;
@@ -121,7 +121,7 @@ TEST_CASE("a JPEG of higher quality is larger and closer to its picture") {
 TEST_CASE("a JPEG that is cut off anywhere is an error, and so is another file") {
     const fs::path file = scratch_directory() / "cut.jpg";
     for (const int flags : {0, TJFLAG_PROGRESSIVE}) {
-        const std::string whole = jpeg_of(smooth_picture(3), TJPF_RGB, TJSAMP_420, flags);
+        const std::string whole = jpeg_of(smooth_image(3), TJPF_RGB, TJSAMP_420, flags);
         write_file(file, whole);
         REQUIRE(problem_of("jpeg", file).empty());
         for (std::size_t size = 0; size < whole.size(); size += 7) {
@@ -136,7 +136,7 @@ TEST_CASE("a JPEG that is cut off anywhere is an error, and so is another file")
 }
 
 TEST_CASE("a JPEG whose header declares more pixels than its bytes can hold is refused before it is read") {
-    std::string content = jpeg_of(smooth_picture(3), TJPF_RGB, TJSAMP_420);
+    std::string content = jpeg_of(smooth_image(3), TJPF_RGB, TJSAMP_420);
     const std::size_t frame = content.find("\xff\xc0");  // its length, precision, height and width follow
     REQUIRE(frame != std::string::npos);
     content.replace(frame + 5, 4, "\xff\x00\xff\x00", 4);

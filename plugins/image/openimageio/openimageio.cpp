@@ -86,7 +86,7 @@ constexpr int k_tile = 256;          // pixels, for files that have tiles
 constexpr int k_tiled_from = 16384;  // pixels: wider or higher pictures are handled in parts
 constexpr std::size_t k_at_once = std::size_t{1} << 26;  // bytes of pixels
 
-OIIO::ImageSpec spec_of(const candela::PictureView& picture) {
+OIIO::ImageSpec spec_of(const candela::ImageView& picture) {
     const bool is_float = picture.pixels == candela::PixelType::real;
     OIIO::ImageSpec spec(picture.width, picture.height, 3, is_float ? OIIO::TypeFloat : OIIO::TypeUInt8);
     if (picture.encoding == candela::ColorEncoding::srgb)
@@ -94,7 +94,7 @@ OIIO::ImageSpec spec_of(const candela::PictureView& picture) {
     return spec;
 }
 
-const void* pixels_of(const candela::PictureView& picture) {
+const void* pixels_of(const candela::ImageView& picture) {
     return picture.pixels == candela::PixelType::real ? static_cast<const void*>(picture.reals.data())
                                                       : static_cast<const void*>(picture.bytes.data());
 }
@@ -239,7 +239,7 @@ class OpenImageIo final : public candela::ImageFormat, public candela::ScanlineI
   public:
     explicit OpenImageIo(const NoParams&) {}
 
-    void write(const candela::PictureView& picture, const char* extension,
+    void write(const candela::ImageView& picture, const char* extension,
                candela::ByteSink& sink) const override {
         if (has_rows(extension)) {
             candela::ViewedRows rows(picture);
@@ -253,7 +253,7 @@ class OpenImageIo final : public candela::ImageFormat, public candela::ScanlineI
 
     bool writes_rows(const char* extension) const override { return has_rows(extension); }
 
-    void write_rows(const candela::PictureView& whole, candela::PictureRows& rows, const char* extension,
+    void write_rows(const candela::ImageView& whole, candela::ImageRows& rows, const char* extension,
                     candela::ByteSink& sink) const override {
         OIIO::ImageSpec spec = spec_of(whole);
         const bool has_tiles = std::max(whole.width, whole.height) >= k_tiled_from;
@@ -267,7 +267,7 @@ class OpenImageIo final : public candela::ImageFormat, public candela::ScanlineI
         const int at_once = k_tile * static_cast<int>(std::min<std::size_t>(tile_rows, 1024));
         write_file(spec, extension, sink, way, [&](OIIO::ImageOutput& output) {
             for (int y = 0; y < whole.height;) {
-                const candela::PictureView some = rows.next(at_once);
+                const candela::ImageView some = rows.next(at_once);
                 const int end = y + some.height;
                 const bool is_written =
                     has_tiles ? output.write_tiles(0, whole.width, y, end, 0, 1, spec.format, pixels_of(some))
@@ -279,11 +279,11 @@ class OpenImageIo final : public candela::ImageFormat, public candela::ScanlineI
         });
     }
 
-    void write_layers(int width, int height, std::span<const candela::PictureChannel> channels,
+    void write_layers(int width, int height, std::span<const candela::ImageChannel> channels,
                       const char* extension, candela::ByteSink& sink) const override {
         OIIO::ImageSpec spec(width, height, static_cast<int>(channels.size()), OIIO::TypeFloat);
         spec.channelnames.clear();
-        for (const candela::PictureChannel& channel : channels) spec.channelnames.emplace_back(channel.name);
+        for (const candela::ImageChannel& channel : channels) spec.channelnames.emplace_back(channel.name);
         spec.attribute("oiio:ColorSpace", "Linear");
         const auto columns = static_cast<std::size_t>(width);
         std::vector<float> row(columns * channels.size());
@@ -300,7 +300,7 @@ class OpenImageIo final : public candela::ImageFormat, public candela::ScanlineI
         });
     }
 
-    void read(const char* path, candela::PictureSink& sink) const override {
+    void read(const char* path, candela::ImageSink& sink) const override {
         const std::unique_ptr<OIIO::ImageInput> input = openimageio::opened(path);
         const OIIO::ImageSpec& spec = input->spec();
         const std::span<float> pixels =

@@ -100,7 +100,7 @@ void convert(std::span<const png_byte> row, int depth, std::size_t channels, flo
 
 }  // namespace
 
-void read_png(const char* path, candela::PictureSink& sink) {
+void read_png(const char* path, candela::ImageSink& sink) {
     const std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path, "rb"));
     if (file == nullptr) throw std::runtime_error("it cannot be opened");
     require_signature(file.get());

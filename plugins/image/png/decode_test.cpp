@@ -121,13 +121,13 @@ TEST_CASE("a PNG of any kind is read as it was written, whatever its transparenc
         INFO("colour type " << kind.color_type << ", " << kind.depth << " bits"
                             << (kind.is_interlaced ? ", interlaced" : ""));
         const std::vector<float> expected = write_random_png(file, kind);
-        const Decoded picture = read_by("png", file);
-        CHECK(picture.width == k_width);
-        CHECK(picture.height == k_height);
-        CHECK(picture.is_encoded);
-        CHECK((picture.values == expected));
+        const Decoded image = read_by("png", file);
+        CHECK(image.width == k_width);
+        CHECK(image.height == k_height);
+        CHECK(image.is_encoded);
+        CHECK((image.values == expected));
         const Decoded theirs = read_by("openimageio", file);
-        CHECK(std::ranges::equal(theirs.values, picture.values,
+        CHECK(std::ranges::equal(theirs.values, image.values,
                                  [](float a, float b) { return std::abs(a - b) <= 1e-7f; }));
     }
 }
@@ -154,15 +154,15 @@ TEST_CASE("a PNG whose header declares more pixels than its bytes can hold is re
     const fs::path file = scratch_directory() / "large.png";
     write_random_png(file, {PNG_COLOR_TYPE_GRAY, 1, false});
     const std::string whole = read_file(file);
-    const fs::path picture = scratch_directory() / "claimed.png";
+    const fs::path image = scratch_directory() / "claimed.png";
     std::string header = whole.substr(12, 17);  // type, and 13 bytes: width and height first
     header.replace(4, 8, std::string_view("\0\0\x80\0\0\0\x80\0", 8));
     std::string checksum(4, '\0');
     const auto crc = static_cast<std::uint32_t>(
         ::crc32(0, reinterpret_cast<const Bytef*>(header.data()), static_cast<uInt>(header.size())));
     for (std::size_t i = 0; i < 4; ++i) checksum[i] = static_cast<char>(crc >> (24 - 8 * i));
-    write_file(picture, whole.substr(0, 12) + header + checksum + whole.substr(33));
-    CHECK(problem_of("png", picture).find("too small for its pixels") != std::string::npos);
+    write_file(image, whole.substr(0, 12) + header + checksum + whole.substr(33));
+    CHECK(problem_of("png", image).find("too small for its pixels") != std::string::npos);
 }
 
 TEST_CASE("a file that is not a PNG is refused as such, and a JPEG by name") {

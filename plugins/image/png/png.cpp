@@ -72,7 +72,7 @@ struct Rows {
     const std::uint8_t* pixels;
     std::size_t size;  // of a row, in bytes
     std::size_t first;
-    std::size_t of_picture;
+    std::size_t of_image;
     ByteView before;  // the row before the first; empty at the top
 
     const std::uint8_t* at(std::size_t y) const { return pixels + (y - first) * size; }
@@ -92,7 +92,7 @@ class Png final : public candela::ImageFormat, public candela::ScanlineImageForm
   public:
     explicit Png(const PngOptions& options) : options_(options) {}
 
-    void write(const candela::PictureView& picture, const char* extension,
+    void write(const candela::ImageView& picture, const char* extension,
                candela::ByteSink& sink) const override {
         if (picture.bytes.size() != k_pixel * static_cast<std::size_t>(std::max(picture.width, 0)) *
                                         static_cast<std::size_t>(std::max(picture.height, 0)))
@@ -103,7 +103,7 @@ class Png final : public candela::ImageFormat, public candela::ScanlineImageForm
 
     bool writes_rows(const char*) const override { return true; }
 
-    void write_rows(const candela::PictureView& picture, candela::PictureRows& rows, const char*,
+    void write_rows(const candela::ImageView& picture, candela::ImageRows& rows, const char*,
                     candela::ByteSink& sink) const override {
         const auto width = static_cast<std::size_t>(std::max(picture.width, 0));
         const auto height = static_cast<std::size_t>(std::max(picture.height, 0));
@@ -132,7 +132,7 @@ class Png final : public candela::ImageFormat, public candela::ScanlineImageForm
             std::size_t end = first + 1;
             while (end < count && row * (begin_of(end + 1) - begin_of(first)) <= k_at_once) ++end;
             bands.assign(end - first, {});
-            const candela::PictureView some = rows.next(static_cast<int>(begin_of(end) - begin_of(first)));
+            const candela::ImageView some = rows.next(static_cast<int>(begin_of(end) - begin_of(first)));
             const Rows at_hand{some.bytes.data(), row, begin_of(first), height, above};
             candela::parallel_for(bands.size(), 1, [&](std::size_t from, std::size_t to) {
                 pool.with(make, [&](Tools& tools) {
@@ -156,7 +156,7 @@ class Png final : public candela::ImageFormat, public candela::ScanlineImageForm
         sink.write(std::as_bytes(std::span(tail)));
     }
 
-    void read(const char* path, candela::PictureSink& sink) const override { read_png(path, sink); }
+    void read(const char* path, candela::ImageSink& sink) const override { read_png(path, sink); }
 
   private:
     void encode(const Rows& rows, Band& band, Tools& tools) const {
@@ -166,7 +166,7 @@ class Png final : public candela::ImageFormat, public candela::ScanlineImageForm
         for (std::size_t y = band.begin; y < band.end; ++y, out += rows.size + 1)
             filter_row({rows.at(y), rows.size}, rows.above(y), out);
         band.adler = isal_adler32(k_adler_of_nothing, filtered.data(), filtered.size());
-        const bool is_last = band.end == rows.of_picture;
+        const bool is_last = band.end == rows.of_image;
         // Deflate, with a window of 32 kB.
         static constexpr std::array<std::uint8_t, 2> k_zlib_header = {0x78, 0x01};
         append_chunk(band.chunk, "IDAT",

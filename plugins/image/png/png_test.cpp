@@ -23,11 +23,11 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-struct Picture {
+struct Image {
     int width, height;
     Bytes pixels;
 
-    candela::PictureView view(candela::ColorEncoding encoding = candela::ColorEncoding::srgb) const {
+    candela::ImageView view(candela::ColorEncoding encoding = candela::ColorEncoding::srgb) const {
         return {.width = width, .height = height, .encoding = encoding, .bytes = pixels};
     }
 };
@@ -44,10 +44,10 @@ std::size_t size_of(int width, int height) {
     return 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
-Picture flat(int width, int height) { return {width, height, Bytes(size_of(width, height), 200)}; }
+Image flat(int width, int height) { return {width, height, Bytes(size_of(width, height), 200)}; }
 
-Picture noise(int width, int height) {
-    Picture picture = flat(width, height);
+Image noise(int width, int height) {
+    Image picture = flat(width, height);
     std::minstd_rand random(7);
     for (std::uint8_t& value : picture.pixels) value = static_cast<std::uint8_t>(random() >> 8);
     return picture;
@@ -55,8 +55,8 @@ Picture noise(int width, int height) {
 
 /// Like a rendered picture: increasing to the right in the upper half and downwards in the lower, with some
 /// edges.
-Picture gradient(int width, int height) {
-    Picture picture = flat(width, height);
+Image gradient(int width, int height) {
+    Image picture = flat(width, height);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             for (int c = 0; c < 3; ++c) {
@@ -69,7 +69,7 @@ Picture gradient(int width, int height) {
     return picture;
 }
 
-Bytes png_of(const Picture& picture, int compression = 1, int threads = 2,
+Bytes png_of(const Image& picture, int compression = 1, int threads = 2,
              candela::ColorEncoding encoding = candela::ColorEncoding::srgb) {
     const auto writer =
         instance<candela::ImageFormat>("png", {{"compression", candela::Value(compression)}}, encoding);
@@ -79,14 +79,14 @@ Bytes png_of(const Picture& picture, int compression = 1, int threads = 2,
 }
 
 /// Reads a file with libpng, without a warning.
-Picture read_by_libpng(const Bytes& file) {
+Image read_by_libpng(const Bytes& file) {
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
     const bool begun = png_image_begin_read_from_memory(&image, file.data(), file.size()) != 0;
     INFO(image.message);
     REQUIRE(begun);
     image.format = PNG_FORMAT_RGB;
-    Picture picture = flat(static_cast<int>(image.width), static_cast<int>(image.height));
+    Image picture = flat(static_cast<int>(image.width), static_cast<int>(image.height));
     const bool read = png_image_finish_read(&image, nullptr, picture.pixels.data(), 0, nullptr) != 0;
     INFO(image.message);
     REQUIRE(read);
@@ -119,7 +119,7 @@ std::vector<Chunk> chunks_of(const Bytes& file) {
 }
 
 /// The chunks must contain a single zlib stream, with the right checksum at its end and nothing after it.
-void check_stream(const std::vector<Chunk>& chunks, const Picture& picture) {
+void check_stream(const std::vector<Chunk>& chunks, const Image& picture) {
     Bytes stream;
     for (const Chunk& chunk : chunks) {
         if (chunk.type == "IDAT") stream.insert(stream.end(), chunk.contents.begin(), chunk.contents.end());
@@ -140,13 +140,13 @@ std::string types_of(const std::vector<Chunk>& chunks) {
     return types;
 }
 
-void check_round_trip(const Picture& picture, int compression) {
+void check_round_trip(const Image& picture, int compression) {
     INFO(picture.width << " x " << picture.height << ", compression " << compression);
     const Bytes file = png_of(picture, compression);
     const std::vector<Chunk> chunks = chunks_of(file);
     CHECK(types_of(chunks) == " IHDR sRGB IDAT IEND");
     check_stream(chunks, picture);
-    const Picture back = read_by_libpng(file);
+    const Image back = read_by_libpng(file);
     REQUIRE(back.width == picture.width);
     REQUIRE(back.height == picture.height);
     CHECK((back.pixels == picture.pixels));
@@ -183,7 +183,7 @@ TEST_CASE("a PNG preserves every bit of the pixels, whatever its size, compressi
 
 TEST_CASE("a PNG is the same to the byte for any number of threads") {
     const int compression = GENERATE(0, 1, 6);
-    for (const Picture& picture : {noise(641, 1023), gradient(1920, 1080)}) {
+    for (const Image& picture : {noise(641, 1023), gradient(1920, 1080)}) {
         const Bytes one = png_of(picture, compression, 1);
         for (const int threads : {2, 8}) {
             for (int again = 0; again < 5; ++again) CHECK((png_of(picture, compression, threads) == one));
@@ -192,7 +192,7 @@ TEST_CASE("a PNG is the same to the byte for any number of threads") {
 }
 
 TEST_CASE("a PNG is the same to the byte wherever its compressor lies in memory") {
-    Picture dark{16, 8, Bytes(size_of(16, 8), 0)};
+    Image dark{16, 8, Bytes(size_of(16, 8), 0)};
     struct Spot {
         std::size_t x, y;
         std::uint8_t gray;
@@ -214,7 +214,7 @@ TEST_CASE("a PNG is the same to the byte wherever its compressor lies in memory"
 }
 
 TEST_CASE("a PNG does not grow with its compression level") {
-    const Picture picture = gradient(1280, 720);
+    const Image picture = gradient(1280, 720);
     std::size_t before = png_of(picture, 0).size();
     CHECK(before > picture.pixels.size());
     CHECK(before < picture.pixels.size() + picture.pixels.size() / 500);
@@ -227,7 +227,7 @@ TEST_CASE("a PNG does not grow with its compression level") {
 }
 
 TEST_CASE("a PNG is marked as sRGB only if it is") {
-    const Picture picture = gradient(30, 20);
+    const Image picture = gradient(30, 20);
     const Bytes file = png_of(picture, 1, 1, candela::ColorEncoding::none);
     CHECK(types_of(chunks_of(file)) == " IHDR IDAT IEND");
     const std::vector<Chunk> chunks = chunks_of(png_of(picture));
@@ -236,7 +236,7 @@ TEST_CASE("a PNG is marked as sRGB only if it is") {
 }
 
 TEST_CASE("an exception from a PNG's sink propagates, wherever the disk is full") {
-    const Picture picture = noise(641, 479);
+    const Image picture = noise(641, 479);
     const std::size_t size = png_of(picture).size();
     const auto writer = instance<candela::ImageFormat>("png");
     for (const std::size_t room : {std::size_t{0}, std::size_t{100}, size / 2, size - 1}) {
@@ -254,10 +254,10 @@ TEST_CASE("an exception from a PNG's sink propagates, wherever the disk is full"
 
 TEST_CASE("a picture that a PNG cannot hold is refused") {
     const auto writer = instance<candela::ImageFormat>("png");
-    const Picture whole = flat(4, 4);
+    const Image whole = flat(4, 4);
     for (const auto& [width, height] : {std::pair{0, 4}, {4, 0}, {-4, 4}, {4, 5}}) {
         Memory memory;
-        candela::PictureView view = whole.view();
+        candela::ImageView view = whole.view();
         view.width = width;
         view.height = height;
         CHECK_THROWS_AS(writer->write(view, "png", memory), std::runtime_error);

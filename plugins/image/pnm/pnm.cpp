@@ -23,7 +23,7 @@ class Pnm final : public candela::ImageFormat, public candela::ScanlineImageForm
   public:
     explicit Pnm(const NoParams&) {}
 
-    void write(const candela::PictureView& picture, const char* extension,
+    void write(const candela::ImageView& picture, const char* extension,
                candela::ByteSink& sink) const override {
         if (writes_rows(extension)) {
             candela::ViewedRows rows(picture);
@@ -41,7 +41,7 @@ class Pnm final : public candela::ImageFormat, public candela::ScanlineImageForm
     /// A PFM's rows run from the bottom.
     bool writes_rows(const char* extension) const override { return std::string_view(extension) == "ppm"; }
 
-    void write_rows(const candela::PictureView& whole, candela::PictureRows& rows, const char*,
+    void write_rows(const candela::ImageView& whole, candela::ImageRows& rows, const char*,
                     candela::ByteSink& sink) const override {
         put(sink, "P6\n" + size_of(whole) + "255\n");
         constexpr int k_at_once = 64;
@@ -49,7 +49,7 @@ class Pnm final : public candela::ImageFormat, public candela::ScanlineImageForm
             sink.write(std::as_bytes(rows.next(k_at_once).bytes));
     }
 
-    void read(const char* path, candela::PictureSink& sink) const override {
+    void read(const char* path, candela::ImageSink& sink) const override {
         std::ifstream file(path, std::ios::binary);
         const std::string kind = word(file);
         if (kind != "P6" && kind != "PF")
@@ -68,7 +68,7 @@ class Pnm final : public candela::ImageFormat, public candela::ScanlineImageForm
     }
 
   private:
-    static std::string size_of(const candela::PictureView& picture) {
+    static std::string size_of(const candela::ImageView& picture) {
         return std::to_string(picture.width) + ' ' + std::to_string(picture.height) + '\n';
     }
 

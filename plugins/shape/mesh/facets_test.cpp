@@ -67,7 +67,7 @@ crease_angle = 0
 }
 
 /// 8-bit levels.
-std::vector<int> picture_of(const candela::RenderScene& scene) {
+std::vector<int> image_of(const candela::RenderScene& scene) {
     candela::Film film(scene.image.width, scene.image.height, candela::PixelType::byte,
                        candela::ColorEncoding::srgb);
     candela::render(scene, film, {.threads = 1});
@@ -99,19 +99,19 @@ TEST_CASE("shape/mesh: flat triangles share their vertices where the shading mod
 TEST_CASE(
     "shape/mesh: a faceted mesh looks as one with vertices for each corner, and as flat shading has it") {
     // In the light of a sun, Lambert's law gives one colour to each flat triangle, wherever it is evaluated.
-    const auto flat = picture_of(scene_with("flat").scene), phong = picture_of(scene_with("phong").scene);
+    const auto flat = image_of(scene_with("flat").scene), phong = image_of(scene_with("phong").scene);
     CHECK(*std::ranges::max_element(flat) > 100);
     CHECK(largest_difference(flat, phong) <= 1);
-    CHECK(largest_difference(phong, picture_of(scene_with("angle-weighted").scene)) <= 1);
-    CHECK(largest_difference(phong, picture_of(scene_with("gouraud").scene)) <= 1);
+    CHECK(largest_difference(phong, image_of(scene_with("angle-weighted").scene)) <= 1);
+    CHECK(largest_difference(phong, image_of(scene_with("gouraud").scene)) <= 1);
     // A highlight moves within a triangle: the pictures of both kinds of vertices agree, and flat shading's
     // differs.
-    const auto glossy = picture_of(scene_with("phong", "blinn-phong").scene);
-    CHECK(largest_difference(glossy, picture_of(scene_with("angle-weighted", "blinn-phong").scene)) <= 1);
-    CHECK(largest_difference(glossy, picture_of(scene_with("flat", "blinn-phong").scene)) > 1);
+    const auto glossy = image_of(scene_with("phong", "blinn-phong").scene);
+    CHECK(largest_difference(glossy, image_of(scene_with("angle-weighted", "blinn-phong").scene)) <= 1);
+    CHECK(largest_difference(glossy, image_of(scene_with("flat", "blinn-phong").scene)) > 1);
 }
 
 TEST_CASE("shape/mesh: rays leave a faceted mesh by its triangles' normals") {
-    const auto facets = picture_of(scene_with("phong", "dielectric").scene);
-    CHECK(largest_difference(facets, picture_of(scene_with("angle-weighted", "dielectric").scene)) <= 1);
+    const auto facets = image_of(scene_with("phong", "dielectric").scene);
+    CHECK(largest_difference(facets, image_of(scene_with("angle-weighted", "dielectric").scene)) <= 1);
 }

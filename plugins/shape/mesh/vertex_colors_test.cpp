@@ -104,8 +104,8 @@ TEST_CASE(
                                                   shading, "-o", (directory / "a.ppm").string()});
         INFO(shading << result.err);
         REQUIRE(result.exit_code == 0);
-        const std::string picture = read_file(directory / "a.ppm");
-        const std::size_t header = picture.size() - 3 * k_size * k_size;
+        const std::string image = read_file(directory / "a.ppm");
+        const std::size_t header = image.size() - 3 * k_size * k_size;
         for (int y = 0; y < k_size; ++y) {
             for (int x = 0; x + 1 < y; ++x) {  // within the lower left triangle
                 const double right = (x + 0.5) / k_size, up = 1 - (y + 0.5) / k_size;
@@ -116,7 +116,7 @@ TEST_CASE(
                     double linear = 0;
                     for (int k = 0; k < 3; ++k) linear += 0.5 * b[k] * colors[k][channel];
                     const int got = static_cast<unsigned char>(
-                        picture[header + static_cast<std::size_t>(3 * (k_size * y + x) + channel)]);
+                        image[header + static_cast<std::size_t>(3 * (k_size * y + x) + channel)]);
                     INFO(x << " " << y << " channel " << channel);
                     CHECK(std::abs(got - 255 * encoded(linear)) <= 0.51);
                 }

@@ -116,7 +116,7 @@ class CppWriter {
              {"TRIANGLE_ARGUMENT", if_triangles(", triangle")},
              {"THIS_TRIANGLE", if_triangles(", triangle_of(o, triangle)")},
              {"NO_TRIANGLE", if_triangles(", {}")},
-             {"PICTURE_FILE", std::string(picture_file_source())},
+             {"PICTURE_FILE", std::string(image_file_source())},
              {"USAGE", arguments.usage},
              {"HELP", arguments.help},
              {"MAIN", arguments.main},

@@ -17,9 +17,9 @@ using namespace target;
 
 TextureTexts textures_of(const ExportedScene& scene) {
     if (scene.textures.empty()) return {};
-    std::string pictures;
+    std::string images;
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
-        pictures += fmt::format(
+        images += fmt::format(
             "const std::vector<TextureLevel>& texture_{}() {{  // {}\n"
             "    static const std::vector<TextureLevel> levels = texture_levels(\"{}\");\n"
             "    return levels;\n}}\n\n",
@@ -27,7 +27,7 @@ TextureTexts textures_of(const ExportedScene& scene) {
     }
     return {filled(candela_cpp_textures, {{"FILE", std::string(texture_file_source())},
                                           {"KERNEL", std::string(texture_kernel())},
-                                          {"PICTURES", pictures}}),
+                                          {"PICTURES", images}}),
             candela_cpp_texture_seen};
 }
 

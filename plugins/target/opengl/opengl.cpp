@@ -81,7 +81,7 @@ class OpenGlWriter {
             {"TRIANGLE_SIZES", is_textured() ? ", 3, 3, 3, 3, 3, 3, 4" : if_triangles(", 3, 3, 3, 3, 3, 3")},
             {"PUT_TRIANGLE", if_triangles(k_put_triangle)},
             {"OBJECTS", objects},
-            {"PICTURE_FILE", std::string(picture_file_source())}};
+            {"PICTURE_FILE", std::string(image_file_source())}};
         for (const Values& more : {about, texture_values(scene_, glsl.texture)})
             values.insert(values.end(), more.begin(), more.end());
         write(files, "scene.cpp", filled(candela_opengl_scene, views_of(values)));

@@ -15,7 +15,7 @@ namespace candela::povray_target {
 namespace {
 
 /// A texture's picture, multiplied with a colour.
-target::TexturePixels picture_of(const ExportedTextureLevel& level, Vec3 color) {
+target::TexturePixels image_of(const ExportedTextureLevel& level, Vec3 color) {
     target::TexturePixels pixels{
         .width = level.width, .height = level.height, .is_encoded = false, .bytes = {}};
     pixels.bytes.reserve(level.texels.size() / 4 * 6);
@@ -44,7 +44,7 @@ Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, c
     if (!of.color_texture_repeats) files.approximate("textures that are clamped at their edges are repeated");
     const std::string name = fmt::format("texture_{}{}.ppm", object, suffix);
     const ExportedTextureLevel& picture = scene.textures[of.color_texture].levels.front();
-    target::write(files, name.c_str(), target::ppm_of(picture_of(picture, 1 / factor * color)));
+    target::write(files, name.c_str(), target::ppm_of(image_of(picture, 1 / factor * color)));
     return {
         fmt::format("uv_mapping image_map {{ ppm \"{}\" gamma {} interpolate 2 }}", name, gamma_text(scene)),
         factor};

@@ -14,7 +14,7 @@
 #include "candela/target/files.h"
 #include "candela/target/literals.h"
 #include "candela/target/page_arrays.h"
-#include "candela/target/page_picture.h"
+#include "candela/target/page_image.h"
 #include "candela/target/text_template.h"
 #include "candela/target_plugin.h"
 #include "scene_json.h"
@@ -70,8 +70,8 @@ class ThreeTarget final : public Target {
                                       {"SCRIPT", candela_three_script}}));
     }
 
-    void draw(const char* directory, const char* picture, ProgramRunner& programs) const override {
-        target::draw_page(fs::path(directory) / main_file(), picture, programs);
+    void draw(const char* directory, const char* image, ProgramRunner& programs) const override {
+        target::draw_page(fs::path(directory) / main_file(), image, programs);
     }
 
   private:

@@ -17,7 +17,7 @@
 #include "candela/target/glsl.h"
 #include "candela/target/literals.h"
 #include "candela/target/page_arrays.h"
-#include "candela/target/page_picture.h"
+#include "candela/target/page_image.h"
 #include "candela/target/text_template.h"
 #include "candela/target_plugin.h"
 

@@ -37,12 +37,12 @@ namespace {
 
 /// A picture whose channels differ: red grows to the right, green downwards, smoothly enough for lossy
 /// formats.
-struct Picture {
+struct Image {
     int width, height;
     std::vector<float> reals;
     std::vector<std::uint8_t> bytes;
 
-    Picture(int w, int h) : width(w), height(h) {
+    Image(int w, int h) : width(w), height(h) {
         for (int y = 0; y < h; ++y) {
             for (int x = 0; x < w; ++x) {
                 const float across = w > 1 ? static_cast<float>(x) / static_cast<float>(w - 1) : 1.0f;
@@ -57,14 +57,14 @@ struct Picture {
 
     /// One colour after another, in one row, for 1, 2, … pixels. This tests run-length encoding, including
     /// runs around the largest counts of seven and eight bits.
-    static Picture of_runs() {
+    static Image of_runs() {
         std::vector<std::size_t> colors;
         std::size_t run = 0;
         for (const auto& [shortest, longest] : {std::pair{1, 39}, std::pair{120, 135}, std::pair{250, 260}}) {
             for (int length = shortest; length <= longest; ++length)
                 colors.insert(colors.end(), static_cast<std::size_t>(length), run++);
         }
-        Picture result(static_cast<int>(colors.size()), 1);
+        Image result(static_cast<int>(colors.size()), 1);
         for (std::size_t i = 0; i < result.reals.size(); ++i) {
             const float value = (colors[i / 3] >> (i % 3)) % 2 == 0 ? 0.25f : 0.75f;
             result.reals[i] = value;
@@ -73,8 +73,8 @@ struct Picture {
         return result;
     }
 
-    candela::PictureView view(PixelType pixels) const {
-        candela::PictureView result{
+    candela::ImageView view(PixelType pixels) const {
+        candela::ImageView result{
             .width = width, .height = height, .pixels = pixels, .encoding = candela::ColorEncoding::srgb};
         if (pixels == PixelType::byte) {
             result.bytes = bytes;
@@ -87,8 +87,8 @@ struct Picture {
 };
 
 /// A picture's own channels, and others with values and names that layers have.
-struct LayeredPicture {
-    explicit LayeredPicture(const Picture& picture) {
+struct LayeredImage {
+    explicit LayeredImage(const Image& picture) {
         const std::size_t pixels = picture.reals.size() / 3;
         for (std::size_t c = 0; c < 3; ++c) {
             for (std::size_t i = 0; i < pixels; ++i) planes[c].push_back(picture.reals[3 * i + c]);
@@ -99,7 +99,7 @@ struct LayeredPicture {
         for (std::size_t c = 0; c < planes.size(); ++c) channels.push_back({k_names[c], planes[c]});
     }
     std::array<std::vector<float>, 5> planes;
-    std::vector<candela::PictureChannel> channels;  // refer to the planes
+    std::vector<candela::ImageChannel> channels;  // refer to the planes
 };
 
 class Memory final : public candela::ByteSink {
@@ -134,7 +134,7 @@ bool reports_full_disk(std::size_t room, const std::function<void(candela::ByteS
     return false;
 }
 
-class ReadBack final : public candela::PictureSink {
+class ReadBack final : public candela::ImageSink {
   public:
     std::span<float> allocate(int w, int h, bool) override {
         width = w;
@@ -186,9 +186,9 @@ std::optional<std::size_t> first_difference(const std::vector<float>& sent, cons
 }
 
 /// A picture whose pixels end, or begin, at inaccessible memory.
-class FencedPicture {
+class FencedImage {
   public:
-    FencedPicture(const candela::PictureView& picture, Fence fence)
+    FencedImage(const candela::ImageView& picture, Fence fence)
         : view_(picture),
           bytes_("bytes", picture.bytes.size(), fence),
           reals_("reals", picture.reals.size_bytes(), fence) {
@@ -197,29 +197,27 @@ class FencedPicture {
         if (!picture.bytes.empty()) view_.bytes = {bytes_.as<std::uint8_t>(), picture.bytes.size()};
         if (!picture.reals.empty()) view_.reals = {reals_.as<float>(), picture.reals.size()};
     }
-    const candela::PictureView& view() const { return view_; }
+    const candela::ImageView& view() const { return view_; }
 
   private:
-    candela::PictureView view_;
+    candela::ImageView view_;
     Fenced bytes_, reals_;
 };
 
 /// Rows, each surrounded by inaccessible memory.
-class FencedRows final : public candela::PictureRows {
+class FencedRows final : public candela::ImageRows {
   public:
-    FencedRows(const candela::PictureView& picture, Fence fence) : rows_(picture), fence_(fence) {}
-    candela::PictureView next(int count) override {
-        return current_.emplace(rows_.next(count), fence_).view();
-    }
+    FencedRows(const candela::ImageView& picture, Fence fence) : rows_(picture), fence_(fence) {}
+    candela::ImageView next(int count) override { return current_.emplace(rows_.next(count), fence_).view(); }
 
   private:
     candela::ViewedRows rows_;
     Fence fence_;
-    std::optional<FencedPicture> current_;
+    std::optional<FencedImage> current_;
 };
 
 /// Memory for a picture being read.
-class FencedSink final : public candela::PictureSink {
+class FencedSink final : public candela::ImageSink {
   public:
     explicit FencedSink(Fence fence) : fence_(fence) {}
     std::span<float> allocate(int width, int height, bool) override {
@@ -234,24 +232,24 @@ class FencedSink final : public candela::PictureSink {
 
 /// Reads outside a picture, its rows and its layers while a file of it is written; empty if nothing
 /// is.
-std::string trespass_of_writing(const ImageFormat& writer, const FileFormat& format, const Picture& picture,
+std::string trespass_of_writing(const ImageFormat& writer, const FileFormat& format, const Image& picture,
                                 Fence fence) {
     Memory memory;
-    const FencedPicture whole(picture.view(format.pixels), fence);
+    const FencedImage whole(picture.view(format.pixels), fence);
     std::string trespass = trespass_of([&] { writer.write(whole.view(), format.extension, memory); });
     const auto* const by_rows = candela::extension_of<candela::ScanlineImageFormat>(writer);
     if (trespass.empty() && by_rows != nullptr && by_rows->writes_rows(format.extension)) {
         FencedRows rows(picture.view(format.pixels), fence);
-        candela::PictureView without_pixels = picture.view(format.pixels);
+        candela::ImageView without_pixels = picture.view(format.pixels);
         without_pixels.bytes = {};
         without_pixels.reals = {};
         trespass = trespass_of([&] { by_rows->write_rows(without_pixels, rows, format.extension, memory); });
     }
     if (!trespass.empty() || !format.layers) return trespass;
-    const LayeredPicture layers(picture);
+    const LayeredImage layers(picture);
     std::vector<std::unique_ptr<Fenced>> values;
-    std::vector<candela::PictureChannel> channels = layers.channels;
-    for (candela::PictureChannel& channel : channels) {
+    std::vector<candela::ImageChannel> channels = layers.channels;
+    for (candela::ImageChannel& channel : channels) {
         const Fenced& fenced = *values.emplace_back(std::make_unique<Fenced>(
             fmt::format("channel {}", channel.name), channel.values.size_bytes(), fence));
         std::ranges::copy(channel.values, fenced.as<float>());
@@ -275,8 +273,8 @@ TEST_CASE("round trip: what it writes reads back as the same picture, of any siz
     for (const FileFormat& format : subject().formats) {
         const auto reader = reader_of(format, writer);
         if (reader == nullptr) continue;
-        for (const Picture& picture :
-             {Picture(1, 1), Picture(7, 5), Picture(64, 64), Picture(1000, 3), Picture::of_runs()}) {
+        for (const Image& picture :
+             {Image(1, 1), Image(7, 5), Image(64, 64), Image(1000, 3), Image::of_runs()}) {
             Memory memory;
             writer->write(picture.view(format.pixels), format.extension, memory);
             const fs::path file = folder.path() / (std::string("picture.") + format.extension);
@@ -317,7 +315,7 @@ TEST_CASE("bounds: nothing outside the picture is read, or written while a file 
     const auto plugin = make<ImageFormat>(default_values());
     const TemporaryFolder folder("candela-image-");
     for (const FileFormat& format : subject().formats) {
-        for (const Picture& picture : {Picture(1, 1), Picture(7, 5), Picture(64, 48)}) {
+        for (const Image& picture : {Image(1, 1), Image(7, 5), Image(64, 48)}) {
             Memory memory;
             plugin->write(picture.view(format.pixels), format.extension, memory);
             const fs::path file = folder.path() / (std::string("picture.") + format.extension);
@@ -345,8 +343,8 @@ TEST_CASE("layers: the picture in a file of layers is its first three channels",
         has_any = true;
         if (format.pixels != PixelType::real)
             FAIL("a ." << format.extension << " has layers, whose values are unbounded, but pixels of bytes");
-        for (const Picture& picture : {Picture(1, 1), Picture(7, 5), Picture(64, 48)}) {
-            const LayeredPicture layers(picture);
+        for (const Image& picture : {Image(1, 1), Image(7, 5), Image(64, 48)}) {
+            const LayeredImage layers(picture);
             const auto write = [&](candela::ByteSink& sink) {
                 writer->write_layers(picture.width, picture.height, layers.channels, format.extension, sink);
             };
@@ -384,7 +382,7 @@ TEST_CASE("truncated: a truncated file is refused, not read as a picture", "[ima
         if (!format.reads) continue;
         reads_any = true;
         Memory memory;
-        format_plugin->write(Picture(64, 48).view(format.pixels), format.extension, memory);
+        format_plugin->write(Image(64, 48).view(format.pixels), format.extension, memory);
         const std::size_t whole = memory.bytes.size();
         const fs::path file = folder.path() / (std::string("cut.") + format.extension);
         for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{5}, std::size_t{20},
@@ -409,15 +407,14 @@ TEST_CASE("repeatable: the same picture yields the same file, again and from 4 t
     const auto writer = make<ImageFormat>(default_values());
     const TemporaryFolder folder("candela-image-");
     for (const FileFormat& format : subject().formats) {
-        const auto written = [&](const Picture& picture) {
+        const auto written = [&](const Image& picture) {
             Memory memory;
             writer->write(picture.view(format.pixels), format.extension, memory);
             return memory.bytes;
         };
-        const std::vector<Picture> pictures{Picture(64, 48), Picture(31, 17), Picture(100, 9),
-                                            Picture(5, 80)};
+        const std::vector<Image> pictures{Image(64, 48), Image(31, 17), Image(100, 9), Image(5, 80)};
         std::vector<std::vector<std::byte>> first;
-        for (const Picture& picture : pictures) {
+        for (const Image& picture : pictures) {
             first.push_back(written(picture));
             if (written(picture) != first.back())
                 FAIL("a ." << format.extension << " of " << picture.size()
@@ -449,7 +446,7 @@ TEST_CASE("repeatable: the same picture yields the same file, again and from 4 t
 
 TEST_CASE("failing writes: it reports that its bytes cannot be stored", "[image]") {
     const auto writer = make<ImageFormat>(default_values());
-    const Picture picture(64, 48);
+    const Image picture(64, 48);
     for (const FileFormat& format : subject().formats) {
         Memory whole;
         writer->write(picture.view(format.pixels), format.extension, whole);
@@ -469,7 +466,7 @@ TEST_CASE("files of its own: it leaves none in the working directory", "[image]"
     const auto writer = make<ImageFormat>(default_values());
     for (const FileFormat& format : subject().formats) {
         Memory memory;
-        writer->write(Picture(8, 8).view(format.pixels), format.extension, memory);
+        writer->write(Image(8, 8).view(format.pixels), format.extension, memory);
     }
     std::string left;
     for (const auto& entry : fs::directory_iterator(folder.path()))

@@ -160,7 +160,7 @@ TEST_CASE("the kit names the fault of each faulty plugin, and its exit code is 4
         {"shape-reads-behind-its-mesh", "bounds", "failed", "tessellate() reads past the end of indices"},
         {"image-writes-behind-what-it-reads", "bounds", "failed",
          "reading a .runs of 1 x 1, it writes past the end of the picture"},
-        {"image-reads-behind-the-picture", "bounds", "failed", "it reads past the end of bytes"},
+        {"image-reads-behind-the-image", "bounds", "failed", "it reads past the end of bytes"},
         {"reflection-glows-at-the-rim", "energy-bounded", "failed", "towards an observer at 88 degrees"},
         {"reflection-declares-in-vain", "declarations", "failed", "did you mean 'reciprocal'?"},
         {"reflection-declares-in-vain", "declarations", "failed",

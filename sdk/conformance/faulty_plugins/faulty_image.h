@@ -18,7 +18,7 @@ class Runs : public candela::ImageFormat {
   public:
     explicit Runs(const candela::sdk::NoParams&) {}
 
-    void write(const candela::PictureView& picture, const char*, candela::ByteSink& sink) const override {
+    void write(const candela::ImageView& picture, const char*, candela::ByteSink& sink) const override {
         std::string text = std::to_string(picture.width) + ' ' + std::to_string(picture.height) + '\n';
         const std::size_t size = picture.bytes.size();
         const auto pixel = [&](std::size_t at) { return picture.bytes.subspan(at, 3); };
@@ -34,7 +34,7 @@ class Runs : public candela::ImageFormat {
         sink.write(std::as_bytes(std::span(text)));
     }
 
-    void read(const char* path, candela::PictureSink& sink) const override {
+    void read(const char* path, candela::ImageSink& sink) const override {
         std::ifstream in(path, std::ios::binary);
         int width = 0, height = 0;
         if (!(in >> width >> height) || in.get() != '\n' || width < 1 || height < 1)

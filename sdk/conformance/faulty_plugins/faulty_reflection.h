@@ -59,7 +59,7 @@ class Ppm : public candela::ImageFormat {
   public:
     explicit Ppm(const candela::sdk::NoParams&) {}
 
-    void write(const candela::PictureView& picture, const char*, candela::ByteSink& sink) const override {
+    void write(const candela::ImageView& picture, const char*, candela::ByteSink& sink) const override {
         const std::string head =
             "P6\n" + std::to_string(picture.width) + ' ' + std::to_string(picture.height) + "\n255\n";
         sink.write(std::as_bytes(std::span(head)));

@@ -16,9 +16,9 @@ struct Survived {
     const char* message;
 };
 
-CommandResult rendered(const std::vector<std::string>& use, const fs::path& picture) {
+CommandResult rendered(const std::vector<std::string>& use, const fs::path& image) {
     std::vector<std::string> words{"render", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS, "-o",
-                                   picture.string()};
+                                   image.string()};
     words.insert(words.end(), use.begin(), use.end());
     return run_candela(words);
 }
@@ -34,7 +34,7 @@ CommandSetup in_directory(const fs::path& directory) {
 TEST_CASE(
     "exceptions, out-of-bounds writes and non-finite results of plugins end in an error that names "
     "them") {
-    const fs::path picture = scratch_directory() / "a.png";
+    const fs::path image = scratch_directory() / "a.png";
     const std::vector<Survived> faults = {
         {{"--reflection=throws-on-create"},
          "object 'cube': plugin reflection/throws-on-create: out of paint"},
@@ -44,17 +44,17 @@ TEST_CASE(
          "plugin reflection/not-a-number returned a non-finite value"},
     };
     for (const Survived& fault : faults) {
-        const CommandResult result = rendered(fault.use, picture);
+        const CommandResult result = rendered(fault.use, image);
         INFO(fault.use.front() << "\n" << result.err);
         CHECK(result.err.find(fault.message) != std::string::npos);
         CHECK(result.exit_code == 1);
-        CHECK_FALSE(fs::exists(picture));
+        CHECK_FALSE(fs::exists(image));
     }
     const fs::path scene = write_file(scratch_directory() / "ambient.toml",
                                       "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
                                       "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"cube\"\n");
     const CommandResult ambient =
-        rendered({scene.string(), "--shading=flat", "--reflection=throws-in-ambient"}, picture);
+        rendered({scene.string(), "--shading=flat", "--reflection=throws-in-ambient"}, image);
     INFO(ambient.err);
     CHECK(ambient.exit_code == 1);
     CHECK(ambient.err.find("plugin reflection/throws-in-ambient: no ambience") != std::string::npos);
@@ -64,9 +64,9 @@ TEST_CASE(
     "a plugin that writes past its batch, however far, is found or harmless, and never causes a crash") {
     const fs::path directory = scratch_directory();
     for (const char* const size : {"16", "64", "300"}) {
-        const fs::path picture = directory / "a.png";
+        const fs::path image = directory / "a.png";
         const CommandResult result =
-            rendered({"--reflection=writes-past-the-end", "--width", size, "--height", size}, picture);
+            rendered({"--reflection=writes-past-the-end", "--width", size, "--height", size}, image);
         INFO(size << "\n" << result.err);
         CHECK((result.exit_code == 0 || result.exit_code == 1));
         if (result.exit_code == 1)

@@ -17,15 +17,15 @@ class @TYPE@Format final : public candela::ImageFormat {
   public:
     explicit @TYPE@Format(const NoParams&) {}
 
-    void write(const candela::PictureView& picture, const char*, candela::ByteSink& sink) const override {
-        const std::string header = "@NAME@ " + std::to_string(picture.width) + ' ' + std::to_string(picture.height) + '\n';
+    void write(const candela::ImageView& image, const char*, candela::ByteSink& sink) const override {
+        const std::string header = "@NAME@ " + std::to_string(image.width) + ' ' + std::to_string(image.height) + '\n';
         sink.write(std::as_bytes(std::span(header)));
-        sink.write(std::as_bytes(picture.bytes));
+        sink.write(std::as_bytes(image.bytes));
     }
 
     // A file may come from anybody: do not trust its header, and do not allocate more memory than its length
     // justifies.
-    void read(const char* path, candela::PictureSink& sink) const override {
+    void read(const char* path, candela::ImageSink& sink) const override {
         std::ifstream file(path, std::ios::binary | std::ios::ate);
         const auto length = static_cast<std::size_t>(file.tellg());
         file.seekg(0);

@@ -20,9 +20,9 @@ std::optional<importing::Imported> import(const fs::path& model) {
         return importing::import_model(
             {.file = model,
              .shown_file = model.string(),
-             .write_picture = [](const std::string& name,
-                                 const std::string& content) { return written(name, content).string(); },
-             .name_of_picture = [](const fs::path& picture) { return picture.string(); }},
+             .write_image = [](const std::string& name,
+                               const std::string& content) { return written(name, content).string(); },
+             .name_of_image = [](const fs::path& image) { return image.string(); }},
             test_registry());
     } catch (const std::exception& problem) {
         require(*problem.what() != '\0', "a refusal is empty");

@@ -20,12 +20,12 @@ usemtl c
 f 1/1 4/2 3/3
 f 2/1 3/2 4/3
 )";
-constexpr const char* k_picture = "P6 2 2 255\nabcdefghijkl";
+constexpr const char* k_image = "P6 2 2 255\nabcdefghijkl";
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static const bool is_there = !fuzz::written("a.ppm", k_picture).empty();
+    static const bool is_there = !fuzz::written("a.ppm", k_image).empty();
     static const std::filesystem::path model = fuzz::written("model.obj", k_model);
     fuzz::written("model.mtl", fuzz::text_of(data, size));
     if (is_there) fuzz::check_import(model);

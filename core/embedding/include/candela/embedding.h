@@ -40,15 +40,15 @@ class CANDELA_EXPORT Error : public std::runtime_error {
 };
 
 /// 8-bit values, clamped to 0 to 255 and encoded as the scene's `image.color_management` says.
-struct BytePicture {
+struct ByteImage {
     int width = 0, height = 0;      // pixels
     std::vector<std::uint8_t> rgb;  // width * height * 3, rows from the top, no padding
 };
 
 /// Intensities as computed: linear, not clamped; 1 corresponds to 255 in bytes.
-struct FloatPicture {
+struct FloatImage {
     int width = 0, height = 0;
-    std::vector<float> rgb;  // as in BytePicture
+    std::vector<float> rgb;  // as in ByteImage
 };
 
 struct Options {
@@ -84,9 +84,9 @@ class CANDELA_EXPORT Scene {
     int height() const noexcept;  // pixels
 
     /// The same values as in the files that the command writes, for any number of threads. Throws Error.
-    BytePicture render();
+    ByteImage render();
     /// Like render(), before clamping and encoding.
-    FloatPicture render_floats();
+    FloatImage render_floats();
 
   private:
     struct Parts;

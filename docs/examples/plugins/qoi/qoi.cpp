@@ -31,7 +31,7 @@ class Qoi final : public candela::ImageFormat {
   public:
     explicit Qoi(const NoParams&) {}
 
-    void write(const candela::PictureView& picture, const char*, candela::ByteSink& sink) const override {
+    void write(const candela::ImageView& picture, const char*, candela::ByteSink& sink) const override {
         std::vector<Byte> out{'q', 'o', 'i', 'f'};
         for (const int number : {picture.width, picture.height}) {
             for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<Byte>(number >> shift));
@@ -67,7 +67,7 @@ class Qoi final : public candela::ImageFormat {
         sink.write(std::as_bytes(std::span(out)));
     }
 
-    void read(const char* path, candela::PictureSink& sink) const override {
+    void read(const char* path, candela::ImageSink& sink) const override {
         std::ifstream file(path, std::ios::binary);
         const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
         std::size_t at = 0;

@@ -8,12 +8,12 @@ namespace {
 std::array<std::uint8_t, 65536> scratch;
 class SharesItsScratch final : public faulty::Runs {
     using Runs::Runs;
-    void write(const candela::PictureView& picture, const char* extension,
+    void write(const candela::ImageView& image, const char* extension,
                candela::ByteSink& sink) const override {
-        if (picture.bytes.size() > scratch.size()) return Runs::write(picture, extension, sink);
-        std::ranges::copy(picture.bytes, scratch.begin());
-        candela::PictureView copy = picture;
-        copy.bytes = std::span(scratch).first(picture.bytes.size());
+        if (image.bytes.size() > scratch.size()) return Runs::write(image, extension, sink);
+        std::ranges::copy(image.bytes, scratch.begin());
+        candela::ImageView copy = image;
+        copy.bytes = std::span(scratch).first(image.bytes.size());
         Runs::write(copy, extension, sink);
     }
 };

@@ -14,13 +14,13 @@ class LayersOutOfOrder final : public candela::ImageFormat {
   public:
     explicit LayersOutOfOrder(const candela::sdk::NoParams&) {}
 
-    void write(const candela::PictureView& picture, const char*, candela::ByteSink& sink) const override {
+    void write(const candela::ImageView& picture, const char*, candela::ByteSink& sink) const override {
         const Size size{picture.width, picture.height};
         sink.write(std::as_bytes(std::span(size)));
         sink.write(std::as_bytes(picture.reals));
     }
 
-    void write_layers(int width, int height, std::span<const candela::PictureChannel> channels, const char*,
+    void write_layers(int width, int height, std::span<const candela::ImageChannel> channels, const char*,
                       candela::ByteSink& sink) const override {
         const Size size{width, height};
         sink.write(std::as_bytes(std::span(size)));
@@ -31,7 +31,7 @@ class LayersOutOfOrder final : public candela::ImageFormat {
         }
     }
 
-    void read(const char* path, candela::PictureSink& sink) const override {
+    void read(const char* path, candela::ImageSink& sink) const override {
         std::ifstream in(path, std::ios::binary);
         Size size{};
         if (!in.read(reinterpret_cast<char*>(size.data()), sizeof(size)) || size[0] < 1 || size[1] < 1)

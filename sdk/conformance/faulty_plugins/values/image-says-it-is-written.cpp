@@ -4,10 +4,10 @@
 namespace {
 class SaysItIsWritten final : public faulty::Ppm {
     using Ppm::Ppm;
-    void write(const candela::PictureView& picture, const char* extension,
+    void write(const candela::ImageView& image, const char* extension,
                candela::ByteSink& sink) const override {
         try {
-            Ppm::write(picture, extension, sink);
+            Ppm::write(image, extension, sink);
         } catch (...) {  // nobody will notice
         }
     }

@@ -30,7 +30,7 @@ class TemporaryFolder {
 /// Writes a file of this machine completely or not at all. Throws std::exception.
 void write_whole(const std::filesystem::path& file, std::string_view content);
 
-/// A part of a C++17 program that writes 8-bit pictures, put_number() to write_picture(): PNG and PPM.
-std::string_view picture_file_source();
+/// A part of a C++17 program that writes 8-bit pictures, put_number() to write_image(): PNG and PPM.
+std::string_view image_file_source();
 
 }  // namespace candela::target

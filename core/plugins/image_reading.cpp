@@ -22,7 +22,7 @@ namespace candela {
 
 namespace {
 
-class Decoder final : public PictureSink {
+class Decoder final : public ImageSink {
   public:
     explicit Decoder(bool with_opacity) : with_opacity_(with_opacity) {}
 
@@ -40,20 +40,20 @@ class Decoder final : public PictureSink {
         return picture_.opacity;
     }
 
-    DecodedPicture picture() && {
+    DecodedImage picture() && {
         if (picture_.values.empty()) throw Error(ErrorCategory::failure, "it has no pixels");
         return std::move(picture_);
     }
 
   private:
     bool with_opacity_;
-    DecodedPicture picture_;
+    DecodedImage picture_;
 };
 
 }  // namespace
 
-std::optional<DecodedPicture> read_by_plugin(const std::filesystem::path& file, Registry& registry,
-                                             ColorEncoding encoding, bool with_opacity) {
+std::optional<DecodedImage> read_by_plugin(const std::filesystem::path& file, Registry& registry,
+                                           ColorEncoding encoding, bool with_opacity) {
     const PluginFile* const plugin = reader_of(file, registry);
     if (plugin == nullptr) return std::nullopt;
     std::error_code none;

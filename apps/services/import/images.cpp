@@ -1,4 +1,4 @@
-#include "import/pictures.h"
+#include "import/images.h"
 
 #include <fmt/format.h>
 #include <sys/mman.h>
@@ -59,11 +59,11 @@ std::string reason_of(const candela::Error& problem, const fs::path& file) {
 
 }  // namespace
 
-ReadPicture read_picture(const Picture& picture, candela::Registry& registry) {
+ReadImage read_image(const Image& image, candela::Registry& registry) {
     std::optional<MemoryFile> memory;
-    if (!picture.content.empty()) memory.emplace(picture.content);
-    const fs::path file = memory ? memory->path() : picture.file;
-    std::optional<candela::DecodedPicture> decoded;
+    if (!image.content.empty()) memory.emplace(image.content);
+    const fs::path file = memory ? memory->path() : image.file;
+    std::optional<candela::DecodedImage> decoded;
     try {
         decoded =
             candela::read_by_plugin(file, registry, candela::ColorEncoding::srgb, /*with_opacity=*/true);
@@ -79,49 +79,47 @@ ReadPicture read_picture(const Picture& picture, candela::Registry& registry) {
     if (!decoded->is_encoded &&
         !std::ranges::all_of(decoded->values, [](float value) { return std::isfinite(value); }))
         throw candela::Error(candela::ErrorCategory::failure, "it has a non-finite pixel");
-    ReadPicture result{.pixels = std::move(*decoded)};
-    if (!format.empty() && !candela::are_one_format(format, candela::extension_of(picture.file)))
+    ReadImage result{.pixels = std::move(*decoded)};
+    if (!format.empty() && !candela::are_one_format(format, candela::extension_of(image.file)))
         result.other_format = format;
     return result;
 }
 
-double brightness_of(const candela::DecodedPicture& picture) {
+double brightness_of(const candela::DecodedImage& image) {
     // Every pixel of small pictures, some thousands of large ones.
-    const std::size_t pixels = picture.values.size() / 3, step = std::max<std::size_t>(pixels / 65536, 1);
+    const std::size_t pixels = image.values.size() / 3, step = std::max<std::size_t>(pixels / 65536, 1);
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < pixels; i += step, ++count) {
-        const float* const p = &picture.values[3 * i];
+        const float* const p = &image.values[3 * i];
         const float most = std::max({p[0], p[1], p[2]});
-        const float linear =
-            picture.is_encoded ? candela::srgb_to_linear(std::clamp(most, 0.0f, 1.0f)) : most;
+        const float linear = image.is_encoded ? candela::srgb_to_linear(std::clamp(most, 0.0f, 1.0f)) : most;
         sum += std::isfinite(linear) ? std::clamp(double{linear}, 0.0, 1.0) : 0;
     }
     return count > 0 ? sum / static_cast<double>(count) : 1;
 }
 
-Means means_of(const candela::DecodedPicture& picture) {
+Means means_of(const candela::DecodedImage& image) {
     Means means;
     // A hundred thousand or more pixels are enough for large pictures.
     constexpr std::size_t k_enough = std::size_t{1} << 18;
-    const std::size_t all = picture.values.size() / 3, step = all / k_enough | 1;
+    const std::size_t all = image.values.size() / 3, step = all / k_enough | 1;
     const std::size_t pixels = (all + step - 1) / step;
     for (std::size_t i = 0; i < all; i += step) {
         for (std::size_t c = 0; c < 3; ++c) {
-            const float value = picture.values[3 * i + c];
+            const float value = image.values[3 * i + c];
             if (!std::isfinite(value)) continue;
             means.stored[c] += static_cast<double>(value);
-            means.linear[c] +=
-                static_cast<double>(picture.is_encoded ? candela::srgb_to_linear(value) : value);
+            means.linear[c] += static_cast<double>(image.is_encoded ? candela::srgb_to_linear(value) : value);
         }
     }
     for (std::size_t c = 0; c < 3; ++c) {
         means.stored[c] /= static_cast<double>(pixels);
         means.linear[c] /= static_cast<double>(pixels);
     }
-    if (!picture.opacity.empty()) {
+    if (!image.opacity.empty()) {
         double sum = 0;
-        for (const float value : picture.opacity) sum += static_cast<double>(value);
+        for (const float value : image.opacity) sum += static_cast<double>(value);
         means.opacity = sum / static_cast<double>(all);
     }
     return means;
@@ -140,29 +138,29 @@ bool OpacityMap::is_cut_by(double level) const {
 
 std::string OpacityMap::pgm() const { return fmt::format("P5\n{} {}\n255\n", width, height) + bytes; }
 
-OpacityMap opacity_of(const candela::DecodedPicture& picture) {
+OpacityMap opacity_of(const candela::DecodedImage& image) {
     OpacityMap map;
-    if (picture.opacity.empty()) return map;
+    if (image.opacity.empty()) return map;
     // Outlines are cut along squares of this size, each of which is a few triangles.
     constexpr int k_most = 256;
-    const int longest = std::max(picture.width, picture.height);
+    const int longest = std::max(image.width, image.height);
     const auto scaled = [&](int size) {
         return longest <= k_most ? size
                                  : std::max(static_cast<int>(std::int64_t{size} * k_most / longest), 1);
     };
-    map.width = scaled(picture.width);
-    map.height = scaled(picture.height);
+    map.width = scaled(image.width);
+    map.height = scaled(image.height);
     const auto mean = [&](int x, int y) {
         const auto begin = [](int i, int from, int to) {
             return static_cast<std::size_t>(std::int64_t{i} * from / to);
         };
         double sum = 0;
         std::size_t count = 0;
-        for (std::size_t j = begin(y, picture.height, map.height);
-             j < begin(y + 1, picture.height, map.height); ++j)
-            for (std::size_t i = begin(x, picture.width, map.width);
-                 i < begin(x + 1, picture.width, map.width); ++i, ++count) {
-                const float value = picture.opacity[j * static_cast<std::size_t>(picture.width) + i];
+        for (std::size_t j = begin(y, image.height, map.height); j < begin(y + 1, image.height, map.height);
+             ++j)
+            for (std::size_t i = begin(x, image.width, map.width); i < begin(x + 1, image.width, map.width);
+                 ++i, ++count) {
+                const float value = image.opacity[j * static_cast<std::size_t>(image.width) + i];
                 sum += value > 0 ? std::min(static_cast<double>(value), 1.0) : 0;
             }
         return sum / static_cast<double>(count);
@@ -171,11 +169,11 @@ OpacityMap opacity_of(const candela::DecodedPicture& picture) {
         for (int x = 0; x < map.width; ++x) map.bytes += static_cast<char>(std::lround(255 * mean(x, y)));
     constexpr float k_transparent = 0.1f, k_opaque = 0.9f, k_few = 0.1f;
     std::size_t transparent = 0, opaque = 0;
-    for (const float value : picture.opacity) {
+    for (const float value : image.opacity) {
         if (value < k_transparent) ++transparent;
         if (value > k_opaque) ++opaque;
     }
-    const auto pixels = static_cast<float>(picture.opacity.size());
+    const auto pixels = static_cast<float>(image.opacity.size());
     map.is_clear_cut =
         transparent > 0 && opaque > 0 && static_cast<float>(transparent + opaque) > (1 - k_few) * pixels;
     return map;

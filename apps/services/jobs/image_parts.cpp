@@ -1,4 +1,4 @@
-#include "jobs/picture_parts.h"
+#include "jobs/image_parts.h"
 
 #include <fmt/format.h>
 
@@ -76,18 +76,18 @@ fs::path file_of_part(const fs::path& picture, PartNumber part) {
     return folder_of_parts(picture) / (part.name() + ".pixels");
 }
 
-std::string PartedPicture::inputs_of_parts() const {
+std::string PartedImage::inputs_of_parts() const {
     return fmt::format("{} of {} x {} {} {} in {}", inputs, whole.width, whole.height,
                        whole.pixels == PixelType::byte ? "bytes" : "floats",
                        whole.encoding == ColorEncoding::srgb ? "srgb" : "linear", parts);
 }
 
-std::size_t PartedPicture::row_size() const {
+std::size_t PartedImage::row_size() const {
     return 3 * static_cast<std::size_t>(whole.width) * (whole.pixels == PixelType::byte ? 1 : sizeof(float));
 }
 
-PartedPicture parted_picture_of(const candela::SceneDraft& draft, const candela::PictureFormat& format,
-                                int parts, candela::Registry& registry) {
+PartedImage parted_image_of(const candela::SceneDraft& draft, const candela::OutputFormat& format, int parts,
+                            candela::Registry& registry) {
     const candela::ImageSettings& image = draft.scene.image;
     return {.whole = {.width = image.width,
                       .height = image.height,
@@ -97,7 +97,7 @@ PartedPicture parted_picture_of(const candela::SceneDraft& draft, const candela:
             .inputs = InputFingerprints(registry, format).of(draft)};
 }
 
-void write_description(const PartedPicture& parted, const fs::path& picture) {
+void write_description(const PartedImage& parted, const fs::path& picture) {
     const Json description = {{"version", 1},
                               {"width", parted.whole.width},
                               {"height", parted.whole.height},
@@ -112,7 +112,7 @@ void write_description(const PartedPicture& parted, const fs::path& picture) {
         write_owned_file(description_of(picture), text);
 }
 
-PartedPicture read_description(const fs::path& picture) {
+PartedImage read_description(const fs::path& picture) {
     const fs::path file = description_of(picture);
     const auto text = read_owned_file(file, k_largest_description);
     if (!text) {
@@ -123,9 +123,9 @@ PartedPicture read_description(const fs::path& picture) {
     }
     try {
         const Json description = parse_json(*text);
-        PartedPicture parted{.whole = {.width = description.at("width"), .height = description.at("height")},
-                             .parts = description.at("parts"),
-                             .inputs = description.at("inputs")};
+        PartedImage parted{.whole = {.width = description.at("width"), .height = description.at("height")},
+                           .parts = description.at("parts"),
+                           .inputs = description.at("inputs")};
         const bool is_byte = description.at("pixels") == "byte";
         parted.whole.pixels = is_byte ? PixelType::byte : PixelType::real;
         parted.whole.encoding =

@@ -1,4 +1,4 @@
-#include "picture_file.h"
+#include "image_file.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -82,7 +82,7 @@ std::vector<Number> stored(OIIO::ImageInput& input, const fs::path& file, int ch
 
 template <class Number>
 void place(const std::vector<Number>& numbers, const OIIO::ImageSpec& spec, const Window& shown, int channels,
-           Picture& picture) {
+           Image& image) {
     const int left = std::max(spec.x, shown.x), right = std::min(spec.x + spec.width, shown.x + shown.width);
     const int top = std::max(spec.y, shown.y),
               bottom = std::min(spec.y + spec.height, shown.y + shown.height);
@@ -93,19 +93,19 @@ void place(const std::vector<Number>& numbers, const OIIO::ImageSpec& spec, cons
             const auto to = static_cast<std::size_t>(y - shown.y) * static_cast<std::size_t>(shown.width) +
                             static_cast<std::size_t>(x - shown.x);
             for (std::size_t c = 0; c < 3; ++c) {
-                picture.values[3 * to + c] = static_cast<float>(
+                image.values[3 * to + c] = static_cast<float>(
                     numbers[static_cast<std::size_t>(channels) * from + (channels == 3 ? c : 0)]);
             }
         }
     }
 }
 
-void require_finite(const Picture& picture, const fs::path& file) {
-    const auto wrong = std::ranges::find_if_not(picture.values, [](float v) { return std::isfinite(v); });
-    if (wrong == picture.values.end()) return;
+void require_finite(const Image& image, const fs::path& file) {
+    const auto wrong = std::ranges::find_if_not(image.values, [](float v) { return std::isfinite(v); });
+    if (wrong == image.values.end()) return;
     constexpr std::array<std::string_view, 3> k_colors = {"red", "green", "blue"};
-    const auto index = static_cast<std::size_t>(wrong - picture.values.begin());
-    const auto width = static_cast<std::size_t>(picture.width);
+    const auto index = static_cast<std::size_t>(wrong - image.values.begin());
+    const auto width = static_cast<std::size_t>(image.width);
     fail(file, fmt::format("contains {} at x {}, y {} ({}), counted from 0 at the upper left; only finite "
                            "numbers can be compared",
                            std::isnan(*wrong) ? "NaN" : "infinity", index / 3 % width, index / 3 / width,
@@ -120,7 +120,7 @@ bool has_reader(const std::string& extension) {
 }
 
 /// Nothing if OpenImageIO cannot read it; `problem` is the reason.
-std::optional<Picture> read_by_openimageio(const fs::path& file, std::string& problem) {
+std::optional<Image> read_by_openimageio(const fs::path& file, std::string& problem) {
     // Otherwise colours would be multiplied with alpha, which is not compared.
     OIIO::ImageSpec wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);
@@ -140,46 +140,45 @@ std::optional<Picture> read_by_openimageio(const fs::path& file, std::string& pr
         }
     }
 
-    Picture picture{.width = shown.width,
-                    .height = shown.height,
-                    .is_float = spec.format.is_floating_point(),
-                    .values = {}};
+    Image image{.width = shown.width,
+                .height = shown.height,
+                .is_float = spec.format.is_floating_point(),
+                .values = {}};
     const int channels = spec.nchannels < 3 ? 1 : 3;  // two channels are grey and alpha
-    const std::uint64_t bytes = sizeof(float) * 3 * (picture.pixels() + spec.image_pixels());
+    const std::uint64_t bytes = sizeof(float) * 3 * (image.pixels() + spec.image_pixels());
     candela::require_memory(bytes, fmt::format("the picture '{}'", file.string()));
-    picture.values.resize(3 * picture.pixels());
-    if (picture.is_float) {
-        place(stored<float>(*input, file, channels, OIIO::TypeFloat), spec, shown, channels, picture);
+    image.values.resize(3 * image.pixels());
+    if (image.is_float) {
+        place(stored<float>(*input, file, channels, OIIO::TypeFloat), spec, shown, channels, image);
     } else {
-        place(stored<std::uint16_t>(*input, file, channels, OIIO::TypeUInt16), spec, shown, channels,
-              picture);
+        place(stored<std::uint16_t>(*input, file, channels, OIIO::TypeUInt16), spec, shown, channels, image);
     }
-    return picture;
+    return image;
 }
 
 /// Converts the plugin's values to a file's: encoded ones to integers, intensities to floats. Nothing if no
 /// image plugin reads files of that extension.
-std::optional<Picture> read_by_plugin(const fs::path& file, candela::Registry& registry) {
+std::optional<Image> read_by_plugin(const fs::path& file, candela::Registry& registry) {
     auto decoded = candela::read_by_plugin(file, registry, candela::ColorEncoding::srgb);
     if (!decoded) return std::nullopt;
-    Picture picture{.width = decoded->width,
-                    .height = decoded->height,
-                    .is_float = !decoded->is_encoded,
-                    .values = std::move(decoded->values)};
-    if (!picture.is_float) {
-        for (float& value : picture.values) value *= Picture::k_whole;
+    Image image{.width = decoded->width,
+                .height = decoded->height,
+                .is_float = !decoded->is_encoded,
+                .values = std::move(decoded->values)};
+    if (!image.is_float) {
+        for (float& value : image.values) value *= Image::k_whole;
     }
-    return picture;
+    return image;
 }
 
 }  // namespace
 
-Picture read_picture(const fs::path& file, candela::Registry& registry) {
+Image read_image(const fs::path& file, candela::Registry& registry) {
     require_ordinary_file(file);
     std::string problem;
-    auto picture = read_by_openimageio(file, problem);
-    if (!picture && !has_reader(candela::extension_of(file))) picture = read_by_plugin(file, registry);
-    if (!picture) fail(file, fmt::format("is not a picture: {}", problem));
-    require_finite(*picture, file);
-    return *std::move(picture);
+    auto image = read_by_openimageio(file, problem);
+    if (!image && !has_reader(candela::extension_of(file))) image = read_by_plugin(file, registry);
+    if (!image) fail(file, fmt::format("is not a picture: {}", problem));
+    require_finite(*image, file);
+    return *std::move(image);
 }

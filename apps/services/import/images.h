@@ -12,8 +12,8 @@ import candela.plugins;
 namespace importing {
 
 /// A picture as a scene will read it.
-struct ReadPicture {
-    candela::DecodedPicture pixels;
+struct ReadImage {
+    candela::DecodedImage pixels;
     /// The format of its content if its name says another: "jpg"; otherwise empty.
     std::string other_format{};
 };
@@ -21,10 +21,10 @@ struct ReadPicture {
 /// Reads a picture from a file or from its bytes. Throws candela::Error (failure) with the reason if that
 /// fails: no image plugin reads its format, or it is empty or truncated. A scene that uses such a picture
 /// would be rejected.
-ReadPicture read_picture(const Picture& picture, candela::Registry& registry);
+ReadImage read_image(const Image& image, candela::Registry& registry);
 
 /// The mean over all pixels of the largest channel: 0 to 1, linear.
-double brightness_of(const candela::DecodedPicture& picture);
+double brightness_of(const candela::DecodedImage& image);
 
 /// Means of a picture's channels, 0 to 1.
 struct Means {
@@ -33,7 +33,7 @@ struct Means {
     double opacity = 1;
 };
 
-Means means_of(const candela::DecodedPicture& picture);
+Means means_of(const candela::DecodedImage& image);
 
 /// A picture's opacity, in at most a few hundred rows and columns.
 struct OpacityMap {
@@ -48,6 +48,6 @@ struct OpacityMap {
     std::string pgm() const;
 };
 
-OpacityMap opacity_of(const candela::DecodedPicture& picture);
+OpacityMap opacity_of(const candela::DecodedImage& image);
 
 }  // namespace importing

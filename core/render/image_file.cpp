@@ -52,7 +52,7 @@ class RegularFileSink final : public RandomAccessSink {
 /// All rows of a picture, in memory.
 class GatheredRows {
   public:
-    GatheredRows(const PictureView& whole, PictureRows& rows) : view_(whole) {
+    GatheredRows(const ImageView& whole, ImageRows& rows) : view_(whole) {
         const std::size_t row = 3 * static_cast<std::size_t>(whole.width);
         const bool is_byte = whole.pixels == PixelType::byte;
         const std::size_t size = row * static_cast<std::size_t>(whole.height);
@@ -65,7 +65,7 @@ class GatheredRows {
         }
         constexpr int k_at_once = 64;
         for (int y = 0; y < whole.height; y += k_at_once) {
-            const PictureView some = rows.next(k_at_once);
+            const ImageView some = rows.next(k_at_once);
             bytes_.insert(bytes_.end(), some.bytes.begin(), some.bytes.end());
             reals_.insert(reals_.end(), some.reals.begin(), some.reals.end());
         }
@@ -76,22 +76,22 @@ class GatheredRows {
     GatheredRows& operator=(const GatheredRows&) = delete;
     ~GatheredRows() = default;
 
-    const PictureView& view() const { return view_; }
+    const ImageView& view() const { return view_; }
 
   private:
-    PictureView view_;
+    ImageView view_;
     std::vector<std::uint8_t> bytes_;
     std::vector<float> reals_;
 };
 
-std::unique_ptr<ImageFormat> writer_of(const PictureFormat& format, Registry& registry,
+std::unique_ptr<ImageFormat> writer_of(const OutputFormat& format, Registry& registry,
                                        ColorEncoding encoding) {
     return registry.create<ImageFormat>(format.plugin, format.parameters, encoding);
 }
 
 /// Makes the format's plugin write, through `call`.
 template <class Call>
-void write(const PictureFormat& format, OutputFile& file, Registry& registry, ColorEncoding encoding,
+void write(const OutputFormat& format, OutputFile& file, Registry& registry, ColorEncoding encoding,
            const Call& call) {
     const auto writer = writer_of(format, registry, encoding);
     FileSink stream(file);
@@ -106,7 +106,7 @@ void write(const PictureFormat& format, OutputFile& file, Registry& registry, Co
 
 /// Writes a file in that way.
 template <class Call>
-void write(const PictureFormat& format, const fs::path& path, Registry& registry, Existing existing,
+void write(const OutputFormat& format, const fs::path& path, Registry& registry, Existing existing,
            ColorEncoding encoding, const Call& call) {
     OutputFile file(path, existing);
     write(format, file, registry, encoding, call);
@@ -115,7 +115,7 @@ void write(const PictureFormat& format, const fs::path& path, Registry& registry
 
 }  // namespace
 
-PictureFormat format_of(const fs::path& path, Registry& registry) {
+OutputFormat format_of(const fs::path& path, Registry& registry) {
     const auto defaults = [&](std::string_view plugin) {
         return registry.parameters(PluginKind::image, plugin);
     };
@@ -148,27 +148,27 @@ PictureFormat format_of(const fs::path& path, Registry& registry) {
             .parameters = defaults(plugin->manifest.name)};
 }
 
-void write_picture(const Film& film, const PictureFormat& format, const fs::path& path, Registry& registry,
-                   Existing existing, Links links) {
+void write_image(const Film& film, const OutputFormat& format, const fs::path& path, Registry& registry,
+                 Existing existing, Links links) {
     OutputFile file(path, existing, links);
-    write_picture(film, format, file, registry);
+    write_image(film, format, file, registry);
     file.finish();
 }
 
-void write_picture(const Film& film, const PictureFormat& format, OutputFile& file, Registry& registry) {
+void write_image(const Film& film, const OutputFormat& format, OutputFile& file, Registry& registry) {
     write(format, file, registry, film.view().encoding, [&](const ImageFormat& writer, ByteSink& sink) {
         writer.write(film.view(), format.extension.c_str(), sink);
     });
 }
 
-bool can_write_rows(const PictureFormat& format, Registry& registry) {
+bool can_write_rows(const OutputFormat& format, Registry& registry) {
     const auto writer = writer_of(format, registry, ColorEncoding::srgb);
     const auto* const rows = extension_of<ScanlineImageFormat>(*writer);
     return rows != nullptr && rows->writes_rows(format.extension.c_str());
 }
 
-void write_rows(const PictureView& whole, PictureRows& rows, const PictureFormat& format,
-                const fs::path& path, Registry& registry, Existing existing) {
+void write_rows(const ImageView& whole, ImageRows& rows, const OutputFormat& format, const fs::path& path,
+                Registry& registry, Existing existing) {
     const char* const extension = format.extension.c_str();
     write(format, path, registry, existing, whole.encoding, [&](const ImageFormat& writer, ByteSink& sink) {
         const auto* const by_rows = extension_of<ScanlineImageFormat>(writer);
@@ -179,8 +179,8 @@ void write_rows(const PictureView& whole, PictureRows& rows, const PictureFormat
     });
 }
 
-void write_layers(int width, int height, std::span<const PictureChannel> channels,
-                  const PictureFormat& format, const fs::path& path, Registry& registry, Existing existing) {
+void write_layers(int width, int height, std::span<const ImageChannel> channels, const OutputFormat& format,
+                  const fs::path& path, Registry& registry, Existing existing) {
     write(format, path, registry, existing, ColorEncoding::none,
           [&](const ImageFormat& writer, ByteSink& sink) {
               writer.write_layers(width, height, channels, format.extension.c_str(), sink);

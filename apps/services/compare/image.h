@@ -6,7 +6,7 @@
 #include <vector>
 
 /// Rows from the top, without padding. Black outside the part that the file stores.
-struct Picture {
+struct Image {
     int width = 0;
     int height = 0;
     bool is_float = false;  // as computed; otherwise whole numbers, encoded for a display
@@ -20,4 +20,4 @@ struct Picture {
 };
 
 /// "640 x 480"
-std::string dimensions_text(const Picture& picture);
+std::string dimensions_text(const Image& image);

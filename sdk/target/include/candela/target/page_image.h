@@ -9,7 +9,7 @@ namespace candela::target {
 
 /// Makes headless Chromium draw the page, which embeds its picture in itself if its URL ends in "#verify",
 /// and writes that picture to a PNG file. Throws std::exception.
-void draw_page(const std::filesystem::path& page, const std::filesystem::path& picture,
+void draw_page(const std::filesystem::path& page, const std::filesystem::path& image,
                ProgramRunner& programs);
 
 }  // namespace candela::target

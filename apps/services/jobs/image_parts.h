@@ -27,13 +27,13 @@ PartNumber part_from(const std::string& text);
 candela::RowRange rows_of(PartNumber part, int height);
 
 /// The folder of a picture's parts, next to the picture.
-std::filesystem::path folder_of_parts(const std::filesystem::path& picture);
+std::filesystem::path folder_of_parts(const std::filesystem::path& image);
 /// The file of a part: its rows from the top, red, green, blue interleaved, as bytes or native floats.
-std::filesystem::path file_of_part(const std::filesystem::path& picture, PartNumber part);
+std::filesystem::path file_of_part(const std::filesystem::path& image, PartNumber part);
 
 /// The data needed for assembling; a file next to the parts.
-struct PartedPicture {
-    candela::PictureView whole;  // without pixels
+struct PartedImage {
+    candela::ImageView whole;  // without pixels
     int parts = 1;
     std::string inputs;  // fingerprint of the inputs of all parts
 
@@ -44,10 +44,10 @@ struct PartedPicture {
 };
 
 /// The picture of a scene, in so many parts. Throws candela::Error (failure).
-PartedPicture parted_picture_of(const candela::SceneDraft& draft, const candela::PictureFormat& format,
-                                int parts, candela::Registry& registry);
+PartedImage parted_image_of(const candela::SceneDraft& draft, const candela::OutputFormat& format, int parts,
+                            candela::Registry& registry);
 
 /// Throws candela::Error (failure).
-void write_description(const PartedPicture& parted, const std::filesystem::path& picture);
+void write_description(const PartedImage& parted, const std::filesystem::path& image);
 /// Throws candela::Error (failure) if there are no parts.
-PartedPicture read_description(const std::filesystem::path& picture);
+PartedImage read_description(const std::filesystem::path& image);

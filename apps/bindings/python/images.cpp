@@ -1,4 +1,4 @@
-#include "pictures.h"
+#include "images.h"
 
 #include "module.h"
 #include "registry.h"
@@ -32,11 +32,11 @@ using Bytes = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecas
 /// The bytes are encoded for display already.
 py::bytes png_of(const RegistryPointer& shared, const Bytes& pixels) {
     require_color(pixels);
-    const PictureView view{.width = static_cast<int>(pixels.shape(1)),
-                           .height = static_cast<int>(pixels.shape(0)),
-                           .pixels = PixelType::byte,
-                           .encoding = ColorEncoding::srgb,
-                           .bytes = {pixels.data(), static_cast<std::size_t>(pixels.size())}};
+    const ImageView view{.width = static_cast<int>(pixels.shape(1)),
+                         .height = static_cast<int>(pixels.shape(0)),
+                         .pixels = PixelType::byte,
+                         .encoding = ColorEncoding::srgb,
+                         .bytes = {pixels.data(), static_cast<std::size_t>(pixels.size())}};
     StringSink sink;
     {
         const py::gil_scoped_release unlocked;
@@ -75,7 +75,7 @@ py::array array_of(Film&& film) { return array_of(std::move(film), 3); }
 py::array array_of(Film&& film, int channels) {
     auto* const kept = new Film(std::move(film));
     const py::capsule owner(kept, [](void* memory) { delete static_cast<Film*>(memory); });
-    const PictureView view = kept->view();
+    const ImageView view = kept->view();
     const bool is_bytes = view.pixels == PixelType::byte;
     const auto size = static_cast<py::ssize_t>(is_bytes ? sizeof(std::uint8_t) : sizeof(float));
     const void* const data = is_bytes ? static_cast<const void*>(view.bytes.data()) : view.reals.data();
@@ -87,7 +87,7 @@ py::array array_of(Film&& film, int channels) {
     return {is_bytes ? py::dtype::of<std::uint8_t>() : py::dtype::of<float>(), shape, strides, data, owner};
 }
 
-void add_pictures(py::module_& module) {
+void add_images(py::module_& module) {
     module.def("encode", &encoded, py::arg("pixels"), py::arg("is_srgb"),
                "Encodes an array of intensities as bytes of shape (height, width, 3).");
     module.def("png", &png_of, py::arg("registry"), py::arg("pixels"),

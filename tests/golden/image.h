@@ -7,7 +7,7 @@
 
 #include "support/samples.h"
 
-struct Picture {
+struct Image {
     int width = 0;
     int height = 0;
     std::vector<float> rgb;
@@ -20,12 +20,12 @@ struct Picture {
 
 /// Writes `scene` (TOML without its version) into `directory`, renders it to a PFM file with the command, and
 /// reads that.
-Picture render_floats(const std::filesystem::path& directory, const std::string& scene,
-                      const std::vector<std::string>& arguments = {});
+Image render_floats(const std::filesystem::path& directory, const std::string& scene,
+                    const std::vector<std::string>& arguments = {});
 
 /// The centre of a pixel in an orthographic view along -z from (0, 0, distance), y up, `metres` fitting the
 /// height.
-Double3 orthographic_point(const Picture& picture, int x, int y, double metres);
+Double3 orthographic_point(const Image& image, int x, int y, double metres);
 
 /// The unit direction of a pixel's ray in a perspective view along -z, y up.
-Double3 perspective_ray(const Picture& picture, int x, int y, double fov_degrees);
+Double3 perspective_ray(const Image& image, int x, int y, double fov_degrees);

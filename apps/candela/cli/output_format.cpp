@@ -1,4 +1,4 @@
-#include "cli/picture_format.h"
+#include "cli/output_format.h"
 
 #include <fmt/format.h>
 
@@ -41,9 +41,9 @@ void add_format_option(CommandLine& line) {
                    "image/jpeg); can be repeated");
 }
 
-candela::PictureFormat picture_format_from(const CommandLine& line, const std::filesystem::path& picture,
-                                           candela::Registry& registry) {
-    candela::PictureFormat format = candela::format_of(picture, registry);
+candela::OutputFormat output_format_from(const CommandLine& line, const std::filesystem::path& picture,
+                                         candela::Registry& registry) {
+    candela::OutputFormat format = candela::format_of(picture, registry);
     if (!line.has(k_option)) return format;
     candela::Diagnostics diagnostics;
     candela::TableNode table;

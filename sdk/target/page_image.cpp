@@ -1,4 +1,4 @@
-#include "candela/target/page_picture.h"
+#include "candela/target/page_image.h"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -51,7 +51,7 @@ std::optional<std::string> content_of(const std::string& html, const std::string
 
 }  // namespace
 
-void draw_page(const fs::path& page, const fs::path& picture, ProgramRunner& programs) {
+void draw_page(const fs::path& page, const fs::path& image, ProgramRunner& programs) {
     const char* const browser = browser_among(programs);
     const TemporaryFolder profile("candela-chromium");
     const std::string profile_option = "--user-data-dir=" + profile.path().string(),
@@ -83,7 +83,7 @@ void draw_page(const fs::path& page, const fs::path& picture, ProgramRunner& pro
         throw std::runtime_error(fmt::format("Chromium does not show the page (exit code {}):\n{}",
                                              result.exit_code, tail(result.err)));
     }
-    write_whole(picture, base64_decoded(std::string_view(*data).substr(k_begin.size())));
+    write_whole(image, base64_decoded(std::string_view(*data).substr(k_begin.size())));
 }
 
 }  // namespace candela::target
