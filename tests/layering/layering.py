@@ -4,7 +4,7 @@
 
 Plugins, and the parts of the SDK that are built into plugins, include headers of core/include and of the SDK, and nothing else; any
 compiler builds them, so they do not import modules. The module candela.api exports everything that those headers declare. No two
-headers are installed under one name.
+headers are installed under one name. A page's scripts import from their own folder and from sdk/web, which is self-contained.
     layering.py ROOT
 """
 import pathlib
@@ -85,9 +85,27 @@ def export_findings(files):
             yield f"{MODULE}: {missing} is declared in {name} and not exported"
 
 
+def script_findings(root):
+    for top in ("sdk", "plugins", "apps"):
+        for path in sorted((root / top).rglob("*.js")):
+            web = root / "sdk/web"
+            own = web if path.is_relative_to(web) else path.parent
+            for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+                imported = re.search(r'\b(?:from|import) "(\.[^"]+)"', line)
+                if imported is None:
+                    continue
+                to = (path.parent / imported[1]).resolve()
+                if not to.is_file():
+                    yield f"{path.relative_to(root)}:{number}: there is no {imported[1]}"
+                elif not to.is_relative_to(own) and not to.is_relative_to(web):
+                    yield f"{path.relative_to(root)}:{number}: {imported[1]} is neither next to it nor in sdk/web"
+
+
 def findings(root):
+    root = root.resolve()
     files = dict(sources(root))
     yield from export_findings(files)
+    yield from script_findings(root)
     modules = {}
     for path, text in files.items():
         for name in re.findall(r"^export module (candela\.\w+);", text, re.MULTILINE):

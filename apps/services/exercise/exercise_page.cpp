@@ -12,8 +12,8 @@
 CANDELA_EMBED(candela_exercise_page, CANDELA_EXERCISE_TEMPLATES "/page.html");
 CANDELA_EMBED(candela_exercise_style, CANDELA_EXERCISE_TEMPLATES "/page.css");
 CANDELA_EMBED(candela_exercise_points, CANDELA_EXERCISE_TEMPLATES "/points.glsl");
-CANDELA_EMBED(candela_exercise_page_style, CANDELA_PAGE_TEMPLATES "/page.css");
-CANDELA_EMBED(candela_exercise_editor_style, CANDELA_PAGE_TEMPLATES "/editor.css");
+CANDELA_EMBED(candela_exercise_page_style, CANDELA_WEB "/page.css");
+CANDELA_EMBED(candela_exercise_editor_style, CANDELA_WEB "/editor.css");
 CANDELA_EMBED(candela_exercise_script, CANDELA_EXERCISE_SCRIPT);
 CANDELA_EMBED(candela_exercise_codemirror, CANDELA_EXERCISE_CODEMIRROR);
 

@@ -22,8 +22,8 @@
 #include "candela/target_plugin.h"
 
 CANDELA_EMBED(candela_webgl_page, CANDELA_SOURCE_DIR "/templates/page.html");
-CANDELA_EMBED(candela_webgl_style, CANDELA_SOURCE_DIR "/templates/page.css");
-CANDELA_EMBED(candela_webgl_editor_style, CANDELA_SOURCE_DIR "/templates/editor.css");
+CANDELA_EMBED(candela_webgl_style, CANDELA_WEB "/page.css");
+CANDELA_EMBED(candela_webgl_editor_style, CANDELA_WEB "/editor.css");
 CANDELA_EMBED(candela_webgl_lobe, CANDELA_SOURCE_DIR "/templates/lobe.glsl");
 CANDELA_EMBED(candela_webgl_codemirror, CANDELA_PAGE_CODEMIRROR);
 CANDELA_EMBED(candela_webgl_script, CANDELA_PAGE_SCRIPT);

@@ -1,6 +1,6 @@
-import { decodeFloats } from "../../../../plugins/target/webgl/scripts/base64.js";
-import { numbered } from "../../../../plugins/target/webgl/scripts/editor/problems.js";
-import { Program } from "../../../../plugins/target/webgl/scripts/programs.js";
+import { decodeFloats } from "../../../../sdk/web/base64.js";
+import { numbered } from "../../../../sdk/web/editor/problems.js";
+import { Program } from "../../../../sdk/web/programs.js";
 
 export const TERMS = ["ambient", "diffuse", "specular"];
 const PER_POINT = 3 * TERMS.length;

@@ -1,7 +1,7 @@
-import { decodeFloats, decodeIndices } from "../../../../plugins/target/webgl/scripts/base64.js";
-import { Editor } from "../../../../plugins/target/webgl/scripts/editor/editor.js";
-import { foreignTo, problemsOf } from "../../../../plugins/target/webgl/scripts/editor/problems.js";
-import { element } from "../../../../plugins/target/webgl/scripts/elements.js";
+import { decodeFloats, decodeIndices } from "../../../../sdk/web/base64.js";
+import { Editor } from "../../../../sdk/web/editor/editor.js";
+import { foreignTo, problemsOf } from "../../../../sdk/web/editor/problems.js";
+import { element } from "../../../../sdk/web/elements.js";
 import { answerText, bodyOf } from "./answers.js";
 import { compareAll, compareTerm } from "./comparison.js";
 import { Evaluation, TERMS } from "./evaluation.js";

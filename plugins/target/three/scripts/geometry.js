@@ -1,6 +1,6 @@
 import { BufferAttribute, BufferGeometry, Mesh } from "three";
-import { floatsOf, indicesOf } from "../../webgl/scripts/arrays.js";
-import { VertexArrays, boxOf, sizeOf } from "../../webgl/scripts/vertex_arrays.js";
+import { floatsOf, indicesOf } from "../../../../sdk/web/arrays.js";
+import { VertexArrays, boxOf, sizeOf } from "../../../../sdk/web/vertex_arrays.js";
 
 /** For three.js's own materials: positions, normals and colours, by their usual names. */
 function usualGeometry({ position, normals, color, indices }) {

@@ -1,6 +1,6 @@
-import { element } from "../../webgl/scripts/elements.js";
-import { Gestures } from "../../webgl/scripts/gestures.js";
-import { readScene } from "../../webgl/scripts/scene.js";
+import { element } from "../../../../sdk/web/elements.js";
+import { Gestures } from "../../../../sdk/web/gestures.js";
+import { readScene } from "../../../../sdk/web/scene.js";
 import { Picture } from "./picture.js";
 
 /** The interactive picture. */

@@ -1,7 +1,7 @@
 import { Color, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3, IntType, Matrix4, MeshLambertMaterial, NearestFilter, RawShaderMaterial,
     RedFormat, RGBAIntegerFormat, UnsignedShortType, Vector3 } from "three";
-import { bytesOf } from "../../webgl/scripts/arrays.js";
-import { levelsOf, sizeWithLevels } from "../../webgl/scripts/texture_levels.js";
+import { bytesOf } from "../../../../sdk/web/arrays.js";
+import { levelsOf, sizeWithLevels } from "../../../../sdk/web/texture_levels.js";
 
 export const HEADER = "precision highp float;\nprecision highp int;\n";
 

@@ -1,6 +1,6 @@
 import { Color, ColorManagement, Scene, WebGLRenderer } from "three";
-import { clippingPlanes, pixelSize, viewAxes } from "../../webgl/scripts/camera.js";
-import { scale } from "../../webgl/scripts/vectors.js";
+import { clippingPlanes, pixelSize, viewAxes } from "../../../../sdk/web/camera.js";
+import { scale } from "../../../../sdk/web/vectors.js";
 import { cameraOf } from "./camera.js";
 import { Film } from "./film.js";
 import { geometryOf } from "./geometry.js";

@@ -1,4 +1,4 @@
-import { element } from "./elements.js";
+import { element } from "../../../../sdk/web/elements.js";
 import { fragmentOf } from "./link.js";
 import { announce, showError, showNotice } from "./messages.js";
 import { commandLineOf, queryOf } from "./options.js";

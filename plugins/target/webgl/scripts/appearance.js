@@ -1,6 +1,6 @@
-import { decodeColor } from "./colors.js";
+import { decodeColor } from "../../../../sdk/web/colors.js";
 import { COLOR } from "./parameters.js";
-import { normalize } from "./vectors.js";
+import { normalize } from "../../../../sdk/web/vectors.js";
 
 /** A parameter's value for a shader: { kind: "int" | "float" | "vec3", value }, angles in radians. */
 function toUniform(parameter, value, isSrgb) {

@@ -1,6 +1,6 @@
-import { viewAxes, viewHeight } from "./camera.js";
-import { svgElement } from "./elements.js";
-import { add, dot, scale, subtract } from "./vectors.js";
+import { viewAxes, viewHeight } from "../../../../sdk/web/camera.js";
+import { svgElement } from "../../../../sdk/web/elements.js";
+import { add, dot, scale, subtract } from "../../../../sdk/web/vectors.js";
 
 export const ARROW_LENGTH = 0.16;  // relative to the picture's height, at the depth of the point
 

@@ -1,7 +1,7 @@
-import { fromHex, toHex } from "./colors.js";
-import { element, isolated, newId } from "./elements.js";
+import { fromHex, toHex } from "../../../../sdk/web/colors.js";
+import { element, isolated, newId } from "../../../../sdk/web/elements.js";
 import { sliderRange } from "./sliders.js";
-import { isNumber, roundToFloat } from "./values.js";
+import { isNumber, roundToFloat } from "../../../../sdk/web/values.js";
 
 const AXES = ["x", "y", "z"];
 const CHANNELS = ["red", "green", "blue"];

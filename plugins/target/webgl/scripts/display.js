@@ -1,4 +1,4 @@
-import { element } from "./elements.js";
+import { element } from "../../../../sdk/web/elements.js";
 import { FromOutside } from "./from_outside.js";
 import { Markers } from "./markers.js";
 import { Panes } from "./panes.js";

@@ -1,12 +1,12 @@
 import { arrowLayer, drawArrows } from "./arrows.js";
-import { element, isolated, newId } from "./elements.js";
+import { element, isolated, newId } from "../../../../sdk/web/elements.js";
 import { encodingAt, formulaAt, sumAt } from "./formula_numbers.js";
 import { Lobes } from "./lobes.js";
 import { announce } from "./messages.js";
 import { queryOf } from "./options.js";
 import { layOver, onMoved } from "./overlay.js";
 import { PANE_NAMES } from "./panes.js";
-import { nameOf } from "./scene.js";
+import { nameOf } from "../../../../sdk/web/scene.js";
 
 const CLICK_DISTANCE = 4;  // in CSS pixels: a pointer that moves farther turns the scene
 const VECTORS = ["N", "V", "L", "R", "H"];

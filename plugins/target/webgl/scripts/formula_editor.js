@@ -1,7 +1,7 @@
 import { appearanceOf } from "./appearance.js";
-import { Editor } from "./editor/editor.js";
-import { problemsOf } from "./editor/problems.js";
-import { element } from "./elements.js";
+import { Editor } from "../../../../sdk/web/editor/editor.js";
+import { problemsOf } from "../../../../sdk/web/editor/problems.js";
+import { element } from "../../../../sdk/web/elements.js";
 import { idsOf, isUsed, modelOfId } from "./formulas.js";
 import { announce } from "./messages.js";
 import { layOver, onMoved } from "./overlay.js";

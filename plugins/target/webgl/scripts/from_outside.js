@@ -1,9 +1,9 @@
-import { orbit } from "./camera.js";
-import { element } from "./elements.js";
-import { Gestures } from "./gestures.js";
+import { orbit } from "../../../../sdk/web/camera.js";
+import { element } from "../../../../sdk/web/elements.js";
+import { Gestures } from "../../../../sdk/web/gestures.js";
 import { ballAround, lightPlaces } from "./light_places.js";
 import { Markers } from "./markers.js";
-import { add, length, normalize, scale, subtract } from "./vectors.js";
+import { add, length, normalize, scale, subtract } from "../../../../sdk/web/vectors.js";
 
 const FOV = 40;  // degrees
 const AZIMUTH = 0.9, ELEVATION = 0.35;  // from the observer's direction, in radians

@@ -1,6 +1,6 @@
-import { displayName } from "./scene.js";
-import { toHex } from "./colors.js";
-import { add, cross, length, normalize, rotate, scale, subtract } from "./vectors.js";
+import { displayName } from "../../../../sdk/web/scene.js";
+import { toHex } from "../../../../sdk/web/colors.js";
+import { add, cross, length, normalize, rotate, scale, subtract } from "../../../../sdk/web/vectors.js";
 
 const CIRCLE_STEPS = 36, RULINGS = 6;
 const MOST_AT_ONCE = 12;  // more would cover the picture, unless they are asked for

@@ -1,5 +1,5 @@
-import { decodeTextFromUrl, encodeTextForUrl } from "./base64.js";
-import { validateObserver } from "./camera.js";
+import { decodeTextFromUrl, encodeTextForUrl } from "../../../../sdk/web/base64.js";
+import { validateObserver } from "../../../../sdk/web/camera.js";
 import { panesLast } from "./settings.js";
 import { validateValue } from "./validation.js";
 

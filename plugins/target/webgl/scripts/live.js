@@ -1,4 +1,4 @@
-import { addArray, hasArray, keepArrays } from "./arrays.js";
+import { addArray, hasArray, keepArrays } from "../../../../sdk/web/arrays.js";
 import { announce, showNotice, showSceneProblems } from "./messages.js";
 
 const RETRY_MS = 1000;

@@ -1,5 +1,5 @@
 import { materialUniforms } from "./appearance.js";
-import { element, newId } from "./elements.js";
+import { element, newId } from "../../../../sdk/web/elements.js";
 import { hemisphere, luminance, mirrorAngle, planeOfIncidence, reflectedInto } from "./lobe.js";
 import { lobeDiagram } from "./lobe_diagram.js";
 import { drawLobe } from "./lobe_surface.js";

@@ -1,4 +1,4 @@
-import { element } from "./elements.js";
+import { element } from "../../../../sdk/web/elements.js";
 import { showError } from "./messages.js";
 import { Page } from "./page.js";
 

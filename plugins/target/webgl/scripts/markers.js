@@ -1,12 +1,12 @@
 import { project } from "./arrows.js";
-import { viewAxes, viewHeight } from "./camera.js";
-import { element, isolated, newId, svgElement } from "./elements.js";
+import { viewAxes, viewHeight } from "../../../../sdk/web/camera.js";
+import { element, isolated, newId, svgElement } from "../../../../sdk/web/elements.js";
 import { ballAround, lightPlaces } from "./light_places.js";
 import { announce } from "./messages.js";
 import { seenPlaces } from "./occlusion.js";
 import { layOver, onMoved } from "./overlay.js";
-import { roundToFloat } from "./values.js";
-import { add, dot, scale, subtract } from "./vectors.js";
+import { roundToFloat } from "../../../../sdk/web/values.js";
+import { add, dot, scale, subtract } from "../../../../sdk/web/vectors.js";
 import { boxLines, drawLines, drawWord, viewLines } from "./wires.js";
 
 const MARGIN = 14;         // from the picture's border, in CSS pixels, for lights outside of it

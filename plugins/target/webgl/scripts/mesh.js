@@ -1,4 +1,4 @@
-import { ATTRIBUTES, TEXTURE_ATTRIBUTES, TRIANGLE_ATTRIBUTES, VertexArrays, sizeOf } from "./vertex_arrays.js";
+import { ATTRIBUTES, TEXTURE_ATTRIBUTES, TRIANGLE_ATTRIBUTES, VertexArrays, sizeOf } from "../../../../sdk/web/vertex_arrays.js";
 
 /** An object's triangles on the GPU. Buffers are filled when a shading model first asks for them. */
 export class Mesh {

@@ -1,5 +1,5 @@
-import { clippingPlanes, viewAxes, viewProjection } from "./camera.js";
-import { add, dot, scale, subtract } from "./vectors.js";
+import { clippingPlanes, viewAxes, viewProjection } from "../../../../sdk/web/camera.js";
+import { add, dot, scale, subtract } from "../../../../sdk/web/vectors.js";
 
 const VERTEX = `
 uniform mat4 view_projection;

@@ -1,7 +1,7 @@
-import { toHex } from "./colors.js";
-import { element, isolated } from "./elements.js";
+import { toHex } from "../../../../sdk/web/colors.js";
+import { element, isolated } from "../../../../sdk/web/elements.js";
 import { followPresets, presetChoice } from "./presets.js";
-import { displayName } from "./scene.js";
+import { displayName } from "../../../../sdk/web/scene.js";
 import { formulaLines } from "./typeset.js";
 
 const INITIALLY_OPEN = 2;

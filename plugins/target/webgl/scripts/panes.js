@@ -1,10 +1,10 @@
-import { element, isolated, newId } from "./elements.js";
-import { Gestures } from "./gestures.js";
+import { element, isolated, newId } from "../../../../sdk/web/elements.js";
+import { Gestures } from "../../../../sdk/web/gestures.js";
 import { layOver, onMoved } from "./overlay.js";
 import { disclosure } from "./panels.js";
 import { presetChoice } from "./presets.js";
-import { displayName } from "./scene.js";
-import { areEqual } from "./values.js";
+import { displayName } from "../../../../sdk/web/scene.js";
+import { areEqual } from "../../../../sdk/web/values.js";
 
 const COUNTS = { one: 1, two: 2, three: 3, four: 4, wipe: 2 };
 const LAYOUT_TITLES = { one: "one picture", two: "two pictures", three: "three pictures", four: "four pictures", wipe: "two pictures with a wipe" };

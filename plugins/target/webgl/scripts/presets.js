@@ -1,6 +1,6 @@
-import { element, newId } from "./elements.js";
+import { element, newId } from "../../../../sdk/web/elements.js";
 import { announce } from "./messages.js";
-import { areEqual, canonicalValue } from "./values.js";
+import { areEqual, canonicalValue } from "../../../../sdk/web/values.js";
 
 /**
  * A choice among the presets of an object's reflection model, such as materials; null if there are none. `prefix`: of the

@@ -1,7 +1,7 @@
 import { fetchPicture } from "./core_picture.js";
-import { element } from "./elements.js";
+import { element } from "../../../../sdk/web/elements.js";
 import { layOver, onMoved } from "./overlay.js";
-import { displayName } from "./scene.js";
+import { displayName } from "../../../../sdk/web/scene.js";
 
 const DELAY_MS = 120;  // a moving slider does not wait for pictures
 

@@ -1,11 +1,11 @@
-import { clippingPlanes, pixelSize, viewAxes, viewProjection } from "./camera.js";
+import { clippingPlanes, pixelSize, viewAxes, viewProjection } from "../../../../sdk/web/camera.js";
 import { Film } from "./film.js";
 import { LightTable } from "./lights.js";
 import { Mesh } from "./mesh.js";
-import { ProgramCache } from "./programs.js";
+import { ProgramCache } from "../../../../sdk/web/programs.js";
 import { Tables } from "./tables.js";
 import { Texture } from "./textures.js";
-import { scale } from "./vectors.js";
+import { scale } from "../../../../sdk/web/vectors.js";
 
 const POLL_MS = 2;
 const LIGHTS_UNIT = 2;  // passes over all pixels use the first two

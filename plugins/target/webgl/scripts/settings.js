@@ -1,8 +1,8 @@
-import { validateObserver } from "./camera.js";
+import { validateObserver } from "../../../../sdk/web/camera.js";
 import { areLightsShown } from "./light_places.js";
 import { COLOR, LAYOUT, OBSERVER_PARAMETERS, SHOWN, SWITCH, makeParameter } from "./parameters.js";
 import { validateValue } from "./validation.js";
-import { areEqual, canonicalValue } from "./values.js";
+import { areEqual, canonicalValue } from "../../../../sdk/web/values.js";
 
 /** Paths come from links, which anybody can write: names that every object inherits must not be found. */
 const ownMember = (object, name) => (object && Object.hasOwn(object, name) ? object[name] : undefined);

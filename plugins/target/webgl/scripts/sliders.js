@@ -1,4 +1,4 @@
-import { isNumber, isVector, roundToFloat } from "./values.js";
+import { isNumber, isVector, roundToFloat } from "../../../../sdk/web/values.js";
 
 /** The smallest of 1, 2 or 5 times a power of ten that is not below x. */
 function niceCeiling(x) {

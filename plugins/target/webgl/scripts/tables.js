@@ -1,4 +1,4 @@
-import { floatsOf } from "./arrays.js";
+import { floatsOf } from "../../../../sdk/web/arrays.js";
 
 /** The numbers of the models' tables for shaders: a texture with a texel for each. They never change. */
 export class Tables {

@@ -1,4 +1,4 @@
-import { levelsOf, sizeWithLevels } from "./texture_levels.js";
+import { levelsOf, sizeWithLevels } from "../../../../sdk/web/texture_levels.js";
 
 /**
  * A picture by which colours of surfaces are multiplied, on the GPU, with its mip levels. Texels are integers, which shaders

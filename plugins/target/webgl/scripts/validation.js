@@ -1,5 +1,5 @@
-import { isNumber, isVector, roundToFloat } from "./values.js";
-import { length } from "./vectors.js";
+import { isNumber, isVector, roundToFloat } from "../../../../sdk/web/values.js";
+import { length } from "../../../../sdk/web/vectors.js";
 
 function describeRange({ minimum, maximum, minimum_excluded, maximum_excluded }) {
     const lower = minimum === null ? "" : `${minimum_excluded ? "more than" : "at least"} ${roundToFloat(minimum)}`;

@@ -1,7 +1,7 @@
 import { project } from "./arrows.js";
-import { viewAxes, viewHeight } from "./camera.js";
-import { svgElement } from "./elements.js";
-import { add, dot, scale, subtract } from "./vectors.js";
+import { viewAxes, viewHeight } from "../../../../sdk/web/camera.js";
+import { svgElement } from "../../../../sdk/web/elements.js";
+import { add, dot, scale, subtract } from "../../../../sdk/web/vectors.js";
 
 /** The edges of a box around the origin, of that width, height and depth. */
 export function boxLines(extent) {

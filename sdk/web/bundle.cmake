@@ -7,7 +7,8 @@ find_path(CANDELA_CODEMIRROR lib/codemirror.js PATHS /usr/share/javascript/codem
 if(NOT CANDELA_CODEMIRROR)
     message(FATAL_ERROR "CodeMirror 5 is missing, the editor for formulas in pages; scripts/setup.sh installs it")
 endif()
-set(CANDELA_PAGE_SOURCES ${CMAKE_CURRENT_LIST_DIR})
+set(CANDELA_WEB ${CMAKE_CURRENT_LIST_DIR})
+file(GLOB CANDELA_WEB_SCRIPTS CONFIGURE_DEPENDS ${CANDELA_WEB}/*.js ${CANDELA_WEB}/editor/*.js)
 
 # candela_bundle_scripts(<output> <main.js> <scripts>...): the module and its imports, except the library three; not minified.
 function(candela_bundle_scripts output main)
@@ -21,7 +22,7 @@ endfunction()
 
 # candela_bundle_codemirror(<output>): the editor with its style, minified, as a script that defines CodeMirror.
 function(candela_bundle_codemirror output)
-    set(entry ${CANDELA_PAGE_SOURCES}/scripts/editor/codemirror_bundle.js)
+    set(entry ${CANDELA_WEB}/editor/codemirror_bundle.js)
     add_custom_command(OUTPUT ${output}
         COMMAND ${CANDELA_ESBUILD} ${entry} --bundle --minify --format=iife --charset=utf8 --log-level=warning
                 --alias:codemirror=${CANDELA_CODEMIRROR} --loader:.css=text

@@ -1,0 +1,1 @@
+export const pull = 9.81;

@@ -1,0 +1,1 @@
+import { pull } from "../../../light/pull.js";
