@@ -189,7 +189,10 @@ class SchemaWriter {
                  {"type", "object"},
                  {"properties", std::move(properties)}};
         put_unless_empty(one, "required", required_in(table.parameters));
-        one["additionalProperties"] = false;
+        const bool takes_kernels_parameters = std::ranges::any_of(table.plugins, [](const PluginKey& key) {
+            return key.parameters_in == "" && has_kernels(key.kind);
+        });
+        if (!takes_kernels_parameters) one["additionalProperties"] = false;
         put_unless_empty(one, "dependencies", std::move(dependencies));
         if (!table.repeated) return one;
         return {{"title", table.title}, {"description", table.meaning}, {"type", "array"}, {"items", one}};
@@ -208,23 +211,36 @@ class SchemaWriter {
     }
 
     Json inner_table(const TableSchema& table, const PluginKey& key) const {
-        return {{"title", fmt::format("[{}.{}]", table.name, *key.parameters_in)},
-                {"description", fmt::format("parameters of the {} model", name_of(key.kind))},
-                {"type", "object"},
-                {"properties", union_of(key.kind)},
-                {"additionalProperties", false}};
+        Json inner{{"title", fmt::format("[{}.{}]", table.name, *key.parameters_in)},
+                   {"description", fmt::format("parameters of the {} model", name_of(key.kind))},
+                   {"type", "object"},
+                   {"properties", union_of(key.kind)}};
+        if (!has_kernels(key.kind)) inner["additionalProperties"] = false;
+        return inner;
     }
 
     static const Parameter& parameter_in(const TableSchema& table, const std::string& name) {
         return *std::ranges::find(table.parameters, name, &Parameter::name);
     }
 
-    /// The schema of an installed plugin's name.
+    /// Whether a kernel file may stand for a plugin. Its parameters are unknown here, so that tables of
+    /// parameters are closed by the cases for installed plugins only.
+    static bool has_kernels(PluginKind kind) {
+        return kind == PluginKind::light || kind == PluginKind::reflection || kind == PluginKind::shading;
+    }
+
+    /// The schema of an installed plugin's name, or a kernel file's.
     Json name_schema(const std::string& meaning, PluginKind kind) const {
-        Json schema{{"description", meaning}, {"type", "string"}, {"enum", Json::array()}};
-        Json& summaries = schema["x-taplo"]["docs"]["enumValues"] = Json::array();
+        Json names{{"enum", Json::array()}};
+        Json& summaries = names["x-taplo"]["docs"]["enumValues"] = Json::array();
         for (const Manifest* m : all(kind)) summaries.push_back(m->summary);
-        for (const Manifest* m : all(kind)) schema["enum"].push_back(m->name);
+        for (const Manifest* m : all(kind)) names["enum"].push_back(m->name);
+        Json schema{{"description", meaning}, {"type", "string"}};
+        if (has_kernels(kind)) {
+            schema["anyOf"] = {std::move(names), {{"pattern", "\\.kernel$"}}};
+        } else {
+            schema.update(names);
+        }
         return schema;
     }
 
