@@ -2,6 +2,7 @@
 // themselves.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
+#include <fstream>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -24,9 +25,9 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 /// The completions of the last word, without meanings.
-std::set<std::string> completions(const std::vector<std::string>& words) {
+std::set<std::string> completions(const std::vector<std::string>& words, const fs::path& directory = {}) {
     const CommandResult result =
-        run_candela(words, {.input = {}, .environment = {{"CANDELA_COMPLETE", "1"}}, .directory = {}});
+        run_candela(words, {.input = {}, .environment = {{"CANDELA_COMPLETE", "1"}}, .directory = directory});
     CHECK(result.exit_code == 0);
     CHECK(result.err.empty());
     std::set<std::string> found;
@@ -52,6 +53,20 @@ TEST_CASE("completion: verbs, options, and names of plugins") {
     CHECK(completions({"plot", "ggx:roughness=0.2,i"}) == Words{"ggx:roughness=0.2,ior="});
     CHECK(completions({"diff", "a.png", "--tol"}) == Words{"--tolerance"});
     CHECK(completions({"render", "--samples", ""}) == Words{"1", "4", "8", "16"});
+}
+
+TEST_CASE("completion: kernel files are offered next to the models' names") {
+    const fs::path folder = scratch_directory();
+    std::ofstream(folder / "velvet.kernel") << "";
+    std::ofstream(folder / "velvet.txt") << "";
+    const auto in_folder = [&](const std::vector<std::string>& words) { return completions(words, folder); };
+    CHECK(in_folder({"render", "--reflection", "vel"}) == Words{"velvet.kernel"});
+    CHECK(in_folder({"compare", "--reflection", "phong,vel"}) == Words{"phong,velvet.kernel"});
+    CHECK(in_folder({"plot", "vel"}) == Words{"velvet.kernel"});
+    CHECK(in_folder({"describe", "vel"}) == Words{"velvet.kernel"});
+    // The shell completes paths.
+    CHECK(in_folder({"render", "--shading", "./vel"}) == Words{"\tfiles"});
+    CHECK(in_folder({"describe", "kernels/vel"}) == Words{"\tfiles"});
 }
 
 TEST_CASE("completion: what can be set in a scene, part by part") {

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 #include <iterator>
 #include <optional>
 #include <set>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "cli/command_line.h"
@@ -15,6 +19,7 @@
 import candela.api;
 import candela.util;
 
+namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using candela::PluginKind;
 
@@ -85,6 +90,34 @@ void append(std::vector<Completion>& to, std::vector<Completion> more) {
     to.insert(to.end(), more.begin(), more.end());
 }
 
+/// The kernel files of the current folder, which serve as models.
+std::vector<Completion> kernel_files() {
+    std::vector<Completion> result;
+    std::error_code error;
+    for (fs::directory_iterator entry(".", error), end; !error && entry != end; entry.increment(error)) {
+        std::string name = entry->path().filename().string();
+        if (candela::is_kernel_file(name))
+            result.push_back({std::move(name), "a kernel file in this folder"});
+    }
+    std::ranges::sort(result, {}, &Completion::word);
+    return result;
+}
+
+std::vector<Completion> models(candela::Registry& registry, PluginKind kind) {
+    std::vector<Completion> result = plugins(registry, kind);
+    append(result, kernel_files());
+    return result;
+}
+
+/// Whether a path is being typed, not an id such as "reflection/ggx".
+bool is_path(std::string_view typed) {
+    const std::size_t slash = typed.find('/');
+    return slash != std::string_view::npos &&
+           std::ranges::find(candela::k_plugin_kinds, typed.substr(0, slash), [](PluginKind kind) {
+               return candela::name_of(kind);
+           }) == std::end(candela::k_plugin_kinds);
+}
+
 std::vector<Completion> kinds() {
     std::vector<Completion> result;
     for (const PluginKind kind : candela::k_plugin_kinds)
@@ -103,7 +136,7 @@ std::vector<Completion> all_plugins(candela::Registry& registry) {
 std::vector<Completion> models_with_values(std::string_view typed, candela::Registry& registry) {
     const std::size_t colon = typed.find(':');
     if (colon == std::string_view::npos) {
-        std::vector<Completion> result = plugins(registry, PluginKind::reflection);
+        std::vector<Completion> result = models(registry, PluginKind::reflection);
         append(result, plugins(registry, PluginKind::reflection, "reflection/"));
         return result;
     }
@@ -132,14 +165,14 @@ struct OptionValues {
     std::vector<Completion> (*values)(candela::Registry&);
 };
 constexpr OptionValues k_values_of_options[] = {
-    {"shading", [](candela::Registry& r) { return plugins(r, PluginKind::shading); }},
-    {"reflection", [](candela::Registry& r) { return plugins(r, PluginKind::reflection); }},
+    {"shading", [](candela::Registry& r) { return models(r, PluginKind::shading); }},
+    {"reflection", [](candela::Registry& r) { return models(r, PluginKind::reflection); }},
     {"target", [](candela::Registry& r) { return plugins(r, PluginKind::target); }},
     {"models",
      [](candela::Registry& r) {
          std::vector<Completion> result{{"all", "all that suit the scene"}};
          append(result, plugins(r, PluginKind::shading));
-         append(result, plugins(r, PluginKind::reflection));
+         append(result, models(r, PluginKind::reflection));
          return result;
      }},
     {"match", [](candela::Registry& r) { return parameters_of(r, PluginKind::reflection); }},
@@ -223,6 +256,8 @@ void CommandLine::complete_value(const po::option_description& option, const std
         values = setting_completions(typed, scene_request_from(*this, registry), registry);
     } else if (const auto* const known = std::ranges::find(k_values_of_options, name, &OptionValues::option);
                known != std::end(k_values_of_options)) {
+        if ((name == "reflection" || name == "shading") && is_path(typed))
+            return print_file_completions(FileKind::any);
         values = known->values(registry);
         // Several verbs accept lists.
         kept += typed.substr(0, typed.rfind(',') + 1);
@@ -237,7 +272,12 @@ void CommandLine::complete_positional(const std::string& typed) const {
     const std::string name = positional_.name_for_position(0);
     candela::Registry registry = registry_from(*this);
     if (name == "kind") return print_arguments(typed, kinds());
-    if (name == "plugin") return print_arguments(typed, all_plugins(registry));
+    if ((name == "plugin" || name == "model") && is_path(typed)) return print_file_completions(FileKind::any);
+    if (name == "plugin") {
+        std::vector<Completion> result = all_plugins(registry);
+        append(result, kernel_files());
+        return print_arguments(typed, std::move(result));
+    }
     if (name == "model") return print_arguments(typed, models_with_values(typed, registry));
     if (name == "arguments" && all(name).empty()) return print_arguments(typed, kinds());  // plugin new
     print_file_completions(FileKind::any);
