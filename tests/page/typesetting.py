@@ -10,8 +10,8 @@ EXPECTED = {
                     "I_{s}=k_{s}I_{L}max(N·H,0)^{shininess} where N·L>0, else 0"],
     "half-lambert": ["I_{a}=k_{a}C_{o}I_{ambient}", "I_{d}=k_{d}C_{o}I_{L}({N·L/2}+{1/2})^{n}"],
     "ggx": ["I_{a}=k_{a}C_{o}I_{ambient}", "I_{d}=k_{d}C_{o}I_{L}max(N·L,0)",
-            "I_{s}={k_{s}I_{L}FDG/4N·V}", "D={α^{2}/(N·H^{2}(α^{2}−1)+1)^{2}}",
-            "G={2N·LN·V/N·L√{α^{2}+(1−α^{2})N·V^{2}}+N·V√{α^{2}+(1−α^{2})N·L^{2}}}"],
+            "I_{s}={k_{s}I_{L}FDG/4N·V}", "D={α^{2}/((N·H)^{2}(α^{2}−1)+1)^{2}}",
+            "G={2N·LN·V/N·L√{α^{2}+(1−α^{2})(N·V)^{2}}+N·V√{α^{2}+(1−α^{2})(N·L)^{2}}}"],
 }
 
 READ = """
