@@ -11,7 +11,7 @@ import time
 
 COMMAND = os.path.abspath(os.environ.get("CANDELA_TEST_COMMAND") or os.environ["CANDELA"])
 SCRATCH = pathlib.Path(os.environ.get("CANDELA_TEST_SCRATCH") or tempfile.mkdtemp(prefix="candela-view-")).absolute()
-ENVIRONMENT = dict(os.environ, XDG_DATA_HOME=str(SCRATCH / "nothing"), CANDELA_PLUGIN_PATH="")
+ENVIRONMENT = dict(os.environ, XDG_DATA_HOME=str(SCRATCH / "nothing"), XDG_CACHE_HOME=str(SCRATCH / "cache"), CANDELA_PLUGIN_PATH="")
 LONGEST = 20  # seconds, on a busy machine
 
 SCENE = """version = 1
@@ -63,7 +63,7 @@ def tcp_sockets_of(process):
 
 
 class View:
-    def __init__(self, name, browser=None):
+    def __init__(self, name, browser=None, options=()):
         """`browser`: the text of a program that replaces xdg-open; without it, no browser is opened."""
         self.folder = SCRATCH / name
         shutil.rmtree(self.folder, ignore_errors=True)
@@ -79,7 +79,7 @@ class View:
             (programs / "xdg-open").write_text(browser)
             (programs / "xdg-open").chmod(0o755)
             environment["PATH"] = f"{programs}:{environment['PATH']}"
-        self.process = subprocess.Popen([COMMAND, "view", *(["--no-open"] if browser is None else []), str(self.file)], env=environment,
+        self.process = subprocess.Popen([COMMAND, "view", *(["--no-open"] if browser is None else []), *options, str(self.file)], env=environment,
                                         cwd=self.folder,
                                         stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=self.log, text=True)
         self.address = self.process.stdout.readline().strip()

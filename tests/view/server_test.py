@@ -379,6 +379,18 @@ class ServerTest(unittest.TestCase):
         with self.view.events() as connection:
             self.assertIn(b'data: ""', until(connection, b"event: problems\ndata: \"\"\n"))
 
+    def test_a_kernel_file_that_was_wrong_from_the_start_is_followed(self):
+        folder = self.view.folder / "kernels"  # the scene's own folder is watched while the scene is wrong
+        folder.mkdir()
+        kernel = folder / "lambert.kernel"
+        right = pathlib.Path(__file__).parents[2].joinpath("plugins/reflection/lambert.kernel").read_text()
+        kernel.write_text(right.replace("KERNEL Reflected", "KERNEL Reflecting"))
+        view = View("follows-a-kernel", options=["--reflection", str(kernel)])
+        with view.events() as connection:
+            until(connection, b"Reflecting")
+        kernel.write_text(right)
+        view.wait_for_color(100)
+        self.assertEqual(view.end(), 0)
 
     def test_programs_that_it_starts_have_none_of_its_sockets(self):
         # Open while the processes start.

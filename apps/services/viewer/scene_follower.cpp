@@ -25,6 +25,7 @@
 #include "plugin_project/plugin_project.h"
 #include "sandbox/process_tree.h"
 
+import candela.plugins;
 import candela.util;
 
 namespace fs = std::filesystem;
@@ -195,6 +196,10 @@ void SceneFollower::watch(bool is_right) {
         files.emplace_back(scene);
         // The files that an invalid scene names are unknown.
         if (!is_right) folders.push_back(fs::path(scene).parent_path());
+    }
+    // A kernel file that has never been valid is not among the inputs.
+    for (const std::string& argument : job_.arguments) {
+        if (candela::is_kernel_file(argument)) files.emplace_back(argument.substr(argument.find('=') + 1));
     }
     watcher_.watch(files, folders);
 }
