@@ -1,5 +1,5 @@
 // Typesets the models' formulas, like the pages of scenes.
-import { formulaLines } from "../../plugins/target/webgl/scripts/typeset.js";
+import { formulaLines } from "../../plugins/target/webgl/scripts/formulas/typeset.js";
 
 for (const element of document.querySelectorAll("pre.formula")) {
     const parameters = element.dataset.parameters.split(" ").map((name) => ({ name }));

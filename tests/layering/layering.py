@@ -4,7 +4,7 @@
 
 Plugins, and the parts of the SDK that are built into plugins, include headers of core/include and of the SDK, and nothing else; any
 compiler builds them, so they do not import modules. The module candela.api exports everything that those headers declare. No two
-headers are installed under one name. A page's scripts import from their own folder and from sdk/web, which is self-contained.
+headers are installed under one name. A page's scripts import from their own folder scripts/ and from sdk/web, which is self-contained.
     layering.py ROOT
 """
 import pathlib
@@ -86,10 +86,10 @@ def export_findings(files):
 
 
 def script_findings(root):
+    web = root / "sdk/web"
     for top in ("sdk", "plugins", "apps"):
         for path in sorted((root / top).rglob("*.js")):
-            web = root / "sdk/web"
-            own = web if path.is_relative_to(web) else path.parent
+            own = next((folder for folder in path.parents if folder == web or folder.name == "scripts"), path.parent)
             for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
                 imported = re.search(r'\b(?:from|import) "(\.[^"]+)"', line)
                 if imported is None:

@@ -1,7 +1,7 @@
 import { arrowLayer, drawArrows } from "./arrows.js";
 import { element, isolated, newId } from "../../../../sdk/web/elements.js";
-import { encodingAt, formulaAt, sumAt } from "./formula_numbers.js";
-import { Lobes } from "./lobes.js";
+import { encodingAt, formulaAt, sumAt } from "./formulas/formula_numbers.js";
+import { Lobes } from "./lobes/lobes.js";
 import { announce } from "./messages.js";
 import { queryOf } from "./options.js";
 import { layOver, onMoved } from "./overlay.js";

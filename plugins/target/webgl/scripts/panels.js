@@ -2,7 +2,7 @@ import { toHex } from "../../../../sdk/web/colors.js";
 import { element, isolated } from "../../../../sdk/web/elements.js";
 import { followPresets, presetChoice } from "./presets.js";
 import { displayName } from "../../../../sdk/web/scene.js";
-import { formulaLines } from "./typeset.js";
+import { formulaLines } from "./formulas/typeset.js";
 
 const INITIALLY_OPEN = 2;
 

@@ -1,9 +1,9 @@
-import { materialUniforms } from "./appearance.js";
-import { element, newId } from "../../../../sdk/web/elements.js";
+import { materialUniforms } from "../appearance.js";
+import { element, newId } from "../../../../../sdk/web/elements.js";
 import { hemisphere, luminance, mirrorAngle, planeOfIncidence, reflectedInto } from "./lobe.js";
 import { lobeDiagram } from "./lobe_diagram.js";
 import { drawLobe } from "./lobe_surface.js";
-import { layOver, onMoved } from "./overlay.js";
+import { layOver, onMoved } from "../overlay.js";
 
 const number = (x) => String(Number(x.toPrecision(4)));
 

@@ -1,11 +1,11 @@
-import { appearanceOf } from "./appearance.js";
-import { Editor } from "../../../../sdk/web/editor/editor.js";
-import { problemsOf } from "../../../../sdk/web/editor/problems.js";
-import { element } from "../../../../sdk/web/elements.js";
+import { appearanceOf } from "../appearance.js";
+import { Editor } from "../../../../../sdk/web/editor/editor.js";
+import { problemsOf } from "../../../../../sdk/web/editor/problems.js";
+import { element } from "../../../../../sdk/web/elements.js";
 import { idsOf, isUsed, modelOfId } from "./formulas.js";
-import { announce } from "./messages.js";
-import { layOver, onMoved } from "./overlay.js";
-import { compare } from "./reference.js";
+import { announce } from "../messages.js";
+import { layOver, onMoved } from "../overlay.js";
+import { compare } from "../reference.js";
 
 const DELAY_MS = 150;  // of the difference, which is drawn twice
 

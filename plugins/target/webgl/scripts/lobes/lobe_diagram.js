@@ -1,4 +1,4 @@
-import { svgElement } from "../../../../sdk/web/elements.js";
+import { svgElement } from "../../../../../sdk/web/elements.js";
 
 const RADIUS = 100, MARGIN = 16, DECADES = 4;
 

@@ -1,7 +1,7 @@
-import { element } from "../../../../sdk/web/elements.js";
+import { element } from "../../../../../sdk/web/elements.js";
 import { partsOfLine } from "./formula_tree.js";
 import { knownNames, mathLine, mathNumber, mathPower, mathRow, mathSign, treeElement } from "./typeset.js";
-import { dot } from "../../../../sdk/web/vectors.js";
+import { dot } from "../../../../../sdk/web/vectors.js";
 
 const shown = (x) => (x === 0 ? "0" : String(Number(x.toPrecision(4))).replace("-", "−"));
 const VECTORS = ["N", "V", "L", "R", "H"];

@@ -1,6 +1,6 @@
-import { ARROW_LENGTH, project } from "./arrows.js";
-import { viewAxes } from "../../../../sdk/web/camera.js";
-import { add, cross, dot, normalize, scale, subtract } from "../../../../sdk/web/vectors.js";
+import { ARROW_LENGTH, project } from "../arrows.js";
+import { viewAxes } from "../../../../../sdk/web/camera.js";
+import { add, cross, dot, normalize, scale, subtract } from "../../../../../sdk/web/vectors.js";
 
 const COLOR = [120, 225, 205], OPACITY = 0.9;
 

@@ -1,4 +1,4 @@
-import { element } from "../../../../sdk/web/elements.js";
+import { element } from "../../../../../sdk/web/elements.js";
 import { partsOfLine } from "./formula_tree.js";
 
 const GREEK = {

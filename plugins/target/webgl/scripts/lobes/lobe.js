@@ -1,4 +1,4 @@
-import { add, cross, dot, length, normalize, scale, subtract } from "../../../../sdk/web/vectors.js";
+import { add, cross, dot, length, normalize, scale, subtract } from "../../../../../sdk/web/vectors.js";
 
 const ROWS = 48, COLUMNS = 96;  // of the grid
 const HORIZON = 89.9;           // degrees from N, just above the surface

@@ -1,4 +1,4 @@
-import { numbered } from "../../../../sdk/web/editor/problems.js";
+import { numbered } from "../../../../../sdk/web/editor/problems.js";
 
 const KINDS = ["reflection", "shading", "light"];
 
