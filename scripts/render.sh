@@ -19,7 +19,8 @@ follow_build() {
     done
     if [ -t 2 ]; then printf '\r\033[K' >&2; fi
 }
-# Builds only what rendering needs, without targets and most verbs; a developer's configuration stays as it is.
+# Builds only what most pictures need, without targets, most verbs, and models in place of scenes; a developer's configuration stays as
+# it is.
 configure=()
 if [ ! -f "$root/build/release/build.ninja" ]; then
     configure=(-DCANDELA_TESTS=OFF)

@@ -1,8 +1,8 @@
 // candela VERB …: composes lights, shapes, shading and reflection models by name.
 //
-// Compiled twice: candela has the verbs that a picture needs, and candela-verbs has all of them, so that the
-// first picture after a checkout does not wait for the others to be built. Users only see candela, which
-// becomes candela-verbs when necessary.
+// Linked into two programs: candela has what most pictures need, and candela-verbs has all of the command, so
+// that the first picture after a checkout does not wait for the rest to be built. Users only see candela,
+// which becomes candela-verbs when necessary (elsewhere.cpp).
 #include <fmt/format.h>
 #include <malloc.h>
 
@@ -16,6 +16,7 @@
 
 #include "cli/commands.h"
 #include "cli/completion.h"
+#include "cli/elsewhere.h"
 #include "cli/manual.h"
 #include "cli/signals.h"
 #include "console/exit_code.h"
@@ -23,14 +24,6 @@
 #include "console/wrapping.h"
 #include "jobs/heartbeat.h"
 #include "programs/sibling_program.h"
-
-#ifdef CANDELA_ALL_VERBS
-constexpr bool k_has_all_verbs = true;
-#define ELSEWHERE(run) run
-#else
-constexpr bool k_has_all_verbs = false;
-#define ELSEWHERE(run) nullptr
-#endif
 
 import candela.util;
 
@@ -41,28 +34,27 @@ using candela::ErrorCategory;
 
 constexpr std::array k_verbs = {
     Verb{"new", "write a starter scene", run_new},
-    Verb{"import", "write a scene that shows a model from another program", ELSEWHERE(run_import)},
+    Verb{"import", "write a scene that shows a model from another program", run_import},
     Verb{"render", "render a scene to a picture", run_render},
-    Verb{"animate", "render an animated scene to frames or a film", ELSEWHERE(run_animate)},
-    Verb{"submit", "distribute frames or parts of a picture over processes or a cluster",
-         ELSEWHERE(run_submit)},
-    Verb{"status", "show a job's progress and failures", ELSEWHERE(run_status)},
-    Verb{"assemble", "put the parts of a picture together", ELSEWHERE(run_assemble)},
+    Verb{"animate", "render an animated scene to frames or a film", run_animate},
+    Verb{"submit", "distribute frames or parts of a picture over processes or a cluster", run_submit},
+    Verb{"status", "show a job's progress and failures", run_status},
+    Verb{"assemble", "put the parts of a picture together", run_assemble},
     Verb{"check", "check a scene and report its errors", run_check},
-    Verb{"edit", "write changes into a scene's files", ELSEWHERE(run_edit)},
-    Verb{"explain", "explain how a pixel gets its colour", ELSEWHERE(run_explain)},
-    Verb{"generate", "write a program that renders a scene", ELSEWHERE(run_generate)},
-    Verb{"verify", "verify that generated programs render what Candela renders", ELSEWHERE(run_verify)},
-    Verb{"view", "show a scene in the browser, updated whenever its files are saved", ELSEWHERE(run_view)},
-    Verb{"compare", "render a contact sheet that compares models", ELSEWHERE(run_compare)},
-    Verb{"bench", "time each stage of rendering a scene", ELSEWHERE(run_bench)},
-    Verb{"diff", "compare two pictures", ELSEWHERE(run_diff)},
-    Verb{"plot", "plot the lobes of reflection models, or the light emitted by lights", ELSEWHERE(run_plot)},
-    Verb{"exercise", "create and grade fill-in-the-formula exercises", ELSEWHERE(run_exercise)},
+    Verb{"edit", "write changes into a scene's files", run_edit},
+    Verb{"explain", "explain how a pixel gets its colour", run_explain},
+    Verb{"generate", "write a program that renders a scene", run_generate},
+    Verb{"verify", "verify that generated programs render what Candela renders", run_verify},
+    Verb{"view", "show a scene in the browser, updated whenever its files are saved", run_view},
+    Verb{"compare", "render a contact sheet that compares models", run_compare},
+    Verb{"bench", "time each stage of rendering a scene", run_bench},
+    Verb{"diff", "compare two pictures", run_diff},
+    Verb{"plot", "plot the lobes of reflection models, or the light emitted by lights", run_plot},
+    Verb{"exercise", "create and grade fill-in-the-formula exercises", run_exercise},
     Verb{"list", "list the installed plugins", run_list},
     Verb{"describe", "explain a plugin: formula, paper, parameters", run_describe},
-    Verb{"plugin", "create, test and diagnose plugins", ELSEWHERE(run_plugin)},
-    Verb{"schema", "print the scene file's JSON Schema or reference", ELSEWHERE(run_schema)},
+    Verb{"plugin", "create, test and diagnose plugins", run_plugin},
+    Verb{"schema", "print the scene file's JSON Schema or reference", run_schema},
 };
 
 std::string help() {
@@ -93,16 +85,6 @@ void choose_instruction_set() {
             ErrorCategory::bad_request,
             fmt::format("CANDELA_INSTRUCTION_SET is '{}', which this processor does not support", name));
     }
-}
-
-/// Whether a command line is for candela-verbs, and this is not it.
-bool is_for_all_verbs(const std::vector<std::string>& arguments) {
-    if (k_has_all_verbs || arguments.empty()) return false;
-    const bool asks_for_help = arguments.size() > 1 && arguments.front() == "help";
-    const std::string& name = arguments[asks_for_help ? 1 : 0];
-    return name == k_task || std::ranges::any_of(k_verbs, [&](const Verb& verb) {
-               return verb.run == nullptr && verb.name == name;
-           });
 }
 
 int run(const std::vector<std::string>& arguments) {
@@ -164,7 +146,10 @@ int main(int argc, char** argv) {
     keep_freed_memory();
     return run_and_report([&] {
         const std::vector<std::string> arguments(argv + 1, argv + argc), words = words_to_complete(arguments);
-        if (is_for_all_verbs(words)) exec_sibling(all_verbs(), arguments);
-        return run(words);
+        try {
+            return run(words);
+        } catch (const Elsewhere&) {
+            exec_sibling(all_verbs(), arguments);
+        }
     });
 }

@@ -20,12 +20,12 @@
 #include "candela/kernel_language/model_compiler.h"
 #include "cli/completion.h"
 #include "cli/manual.h"
+#include "cli/model_scene.h"
 #include "cli/usual_options.h"
 #include "console/reporting.h"
 #include "console/terminal.h"
 #include "console/wrapping.h"
 #include "import/import.h"
-#include "sandbox/temporary_folder.h"
 
 import candela.scene;
 import candela.util;
@@ -194,43 +194,7 @@ const std::string& contents_of(const std::string& stream) {
     return text->second;
 }
 
-/// Readers that read each model's triangles only once. Never destroyed: the plugins are gone by then.
-std::vector<std::shared_ptr<const void>>& triangles_of_models() {
-    static auto& all =
-        *new std::vector<std::shared_ptr<const void>>;  // NOLINT(cppcoreguidelines-owning-memory)
-    return all;
-}
-
-/// The scene that shows a model. It is made once; so are the files of pictures embedded in the model, which
-/// live as long as the command.
-const std::string& scene_of_model(const std::string& file, bool allow_outside, bool with_animation,
-                                  candela::Registry& registry) {
-    static std::map<std::string, std::string> known;
-    static std::optional<TemporaryFolder> images;
-    const auto [scene, is_new] = known.try_emplace(file);
-    if (!is_new) return scene->second;
-    const importing::Imported imported = importing::import_model(
-        {.file = file,
-         .allow_outside = allow_outside,
-         .with_animation = with_animation,
-         .shown_file = std::filesystem::path(file).filename().string(),  // it is relative to itself
-         .write_image =
-             [&](const std::string& name, const std::string& content) {
-                 if (!images) images.emplace("candela-import-");
-                 const std::filesystem::path path = images->path() / name;
-                 candela::write_text_file(path, content);
-                 return path.string();
-             },
-         .name_of_image = [](const std::filesystem::path& image) { return image.string(); }},
-        registry);
-    for (const std::string& note : imported.notes) warn(note);
-    triangles_of_models().push_back(imported.triangles);
-    return scene->second = imported.scene;
-}
-
 }  // namespace
-
-void forget_triangles_of_models() { triangles_of_models().clear(); }
 
 void add_scene_options(CommandLine& line) {
     line.positional("scene", -1);
@@ -281,6 +245,10 @@ std::vector<candela::Setting> settings_from(const CommandLine& line, const std::
     return settings;
 }
 
+bool has_model(const CommandLine& line) {
+    return std::ranges::any_of(line.all("scene"), importing::is_model);
+}
+
 candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry,
                                          Models models) {
     candela::SceneRequest request;
@@ -303,8 +271,7 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
                 file, scene_of_model(file, line.has("allow-outside"), with_animation, registry));
         }
     }
-    if (line.has("allow-outside") &&
-        std::ranges::none_of(files, [](const std::string& file) { return importing::is_model(file); }))
+    if (line.has("allow-outside") && !has_model(line))
         throw Error(
             ErrorCategory::bad_request,
             "--allow-outside applies to a model given instead of a scene; in a scene, give the object "

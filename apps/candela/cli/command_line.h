@@ -66,9 +66,8 @@ enum class Models { at_rest, moving };
 /// Imports a model given in place of a scene, once, and reports what is lost.
 candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry,
                                          Models models = Models::at_rest);
-/// Call this once the scene of a model has been compiled. Until then its triangles are kept, so that the file
-/// is read only once.
-void forget_triangles_of_models();
+/// Whether a model is given in place of a scene.
+bool has_model(const CommandLine& line);
 /// The arguments that give another command, run in this folder, the same scene.
 std::vector<std::string> scene_words_from(const CommandLine& line);
 

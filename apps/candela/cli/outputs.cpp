@@ -5,7 +5,7 @@
 
 #include <system_error>
 
-#include "import/model_parts.h"
+#include "import/model_buffers.h"
 
 namespace fs = std::filesystem;
 using candela::Error;

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cli/command_line.h"
+#include "cli/model_scene.h"
 #include "console/reporting.h"
 #include "console/terminal.h"
 

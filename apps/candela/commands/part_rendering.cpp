@@ -13,11 +13,15 @@
 #include "cli/scene_compilation.h"
 #include "console/exit_code.h"
 #include "console/reporting.h"
+#include "console/stopwatch.h"
 #include "console/terminal.h"
 #include "film/render_cache.h"
 #include "jobs/image_parts.h"
 
 import candela.api;
+import candela.plugins;
+import candela.render;
+import candela.scene;
 import candela.util;
 
 namespace fs = std::filesystem;
@@ -26,11 +30,6 @@ using candela::ErrorCategory;
 using candela::Links;
 
 namespace {
-
-void warn_if_dark(const candela::RenderedRows& rows) {
-    const std::string darkness = rows.darkness_diagnosis();
-    if (!darkness.empty()) warn("nothing in the picture is lit: " + darkness);
-}
 
 void write_pixels(candela::RenderedRows& rows, int count, const fs::path& path) {
     candela::OutputFile file(path, candela::Existing::replaced, Links::not_followed);
@@ -50,39 +49,6 @@ void require_no(const CommandLine& line, const char* option, const char* why) {
 }
 
 }  // namespace
-
-bool is_streamed(const candela::ImageSettings& image, const candela::OutputFormat& format,
-                 candela::Registry& registry) {
-    constexpr double k_large = 256e6;  // bytes
-    const double size =
-        3.0 * image.width * image.height * (format.pixels == candela::PixelType::byte ? 1 : 4);
-    return size > k_large && candela::can_write_rows(format, registry);
-}
-
-int render_by_rows(const CommandLine& line, const candela::RenderScene& scene,
-                   const candela::OutputFormat& format, candela::Existing existing,
-                   candela::Registry& registry, const Stopwatch& total) {
-    const auto output = line.get<std::string>("output");
-    const candela::ImageSettings& image = scene.image;
-    const int threads = threads_from(line);
-    {
-        ProgressBar bar("rendering", !is_quiet());
-        candela::RenderedRows rows(scene, format.pixels, {0, image.height},
-                                   {.threads = threads, .progress = bar.updater()});
-        const candela::ImageView whole{.width = image.width,
-                                       .height = image.height,
-                                       .pixels = format.pixels,
-                                       .encoding = image.color_management};
-        candela::with_threads(threads,
-                              [&] { candela::write_rows(whole, rows, format, output, registry, existing); });
-        warn_if_dark(rows);
-    }
-    say_afterwards([&] {
-        return fmt::format("{}: {} x {}, {}\n", output == "-" ? "picture" : output, image.width, image.height,
-                           duration_text(total.milliseconds()));
-    });
-    return 0;
-}
 
 int render_part(const CommandLine& line) {
     const Stopwatch total;

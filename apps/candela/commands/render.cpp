@@ -11,10 +11,12 @@
 #include "aov/terms.h"
 #include "cli/command_line.h"
 #include "cli/commands.h"
+#include "cli/model_scene.h"
 #include "cli/output_format.h"
 #include "cli/outputs.h"
 #include "cli/scene_compilation.h"
 #include "commands/part_rendering.h"
+#include "commands/row_rendering.h"
 #include "console/exit_code.h"
 #include "console/reporting.h"
 #include "console/stopwatch.h"
@@ -184,5 +186,7 @@ int run_render(const std::vector<std::string>& arguments) {
         "them")("verbose", "print how long each stage took");
     add_no_clobber_option(line);
     if (!line.parse(arguments)) return 0;
-    return line.has("part") ? render_part(line) : render_image(line);
+    if (line.has("part")) return render_part(line);
+    if (has_model(line)) expect_models();
+    return render_image(line);
 }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "import/model_buffers.h"
 #include "mesh_io/bad_file.h"
 #include "mesh_io/gltf/elements.h"
 
@@ -54,10 +55,9 @@ std::string stem_of(const std::string& name, std::size_t number) {
 }  // namespace
 
 Container::Container(const Source& source) try : source_(source), file_(source.file) {
-    const auto bytes_at = [&](std::size_t begin, std::size_t count) { return file_.at(begin, count); };
-    chunks_ = mesh_io::gltf::chunks_of(file_.size(), bytes_at);
-    const std::string_view json = file_.at(chunks_.json.begin, chunks_.json.size);
-    json_ = mesh_io::gltf::parsed(mesh_io::without_mark(json));
+    Head head = head_of(file_);
+    chunks_ = head.chunks;
+    json_ = std::move(head.json);
 } catch (const mesh_io::BadFile& problem) {
     fail(fmt::format("'{}' {}", source.file.string(), problem.what()));
 }
@@ -132,20 +132,6 @@ std::vector<double> Container::values(std::size_t accessor, std::size_t componen
         }
     }
     return result;
-}
-
-std::vector<fs::path> Container::named_files(bool with_images) const {
-    std::vector<fs::path> files;
-    for (const char* const kind : {"buffers", "images"}) {
-        if (kind == std::string_view("images") && !with_images) break;
-        for (const Json& entry : array_of(json_, kind)) {
-            const std::string uri = text_of(entry, "uri");
-            if (!uri.empty() && !uri.starts_with("data:"))
-                files.push_back(fs::absolute(source_.file).parent_path() /
-                                mesh_io::gltf::decoded_percents(uri));
-        }
-    }
-    return files;
 }
 
 Image Container::image(std::size_t index) {

@@ -42,9 +42,6 @@ class Container {
     /// All numbers of an accessor with that number of components. Throws candela::Error (failure).
     std::vector<double> values(std::size_t accessor, std::size_t components);
 
-    /// The files named by its buffers and its images, whether or not they exist.
-    std::vector<std::filesystem::path> named_files(bool with_images) const;
-
   private:
     std::string_view buffer(std::size_t index);
     mesh_io::Array<char> read_buffer(std::size_t index);

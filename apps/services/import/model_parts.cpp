@@ -5,11 +5,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
-#include "import/gltf_container.h"
+#include "import/model_buffers.h"
 #include "import/readers.h"
 #include "mesh_io/bad_file.h"
 #include "mesh_io/obj_statements.h"
@@ -24,21 +23,6 @@ namespace {
 
 constexpr std::size_t k_most_library_bytes = 64u << 20;
 constexpr std::string_view k_blanks = " \t";
-
-char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
-
-bool is_same_word(std::string_view a, std::string_view b) {
-    return std::ranges::equal(a, b, {}, lower, lower);
-}
-
-/// Readers may ignore case when they look for a name, so names in another case count as the same file.
-bool is_file(const fs::path& named, const fs::path& file) {
-    std::error_code problem;
-    if (fs::equivalent(named, file, problem)) return true;
-    const fs::path target = candela::canonical_path(file);
-    return is_same_word(named.filename().string(), target.filename().string()) &&
-           fs::equivalent(named.parent_path() / ".", target.parent_path(), problem);
-}
 
 /// The names that the rest of a statement may contain: each word, or several with the blanks between them.
 std::vector<std::string> possible_names(std::string_view rest) {
@@ -100,16 +84,6 @@ bool is_part_of_ply(const fs::path& model, const fs::path& file) {
     });
 }
 
-bool is_named_in_gltf(const fs::path& model, const fs::path& file, bool with_images) {
-    try {
-        const gltf::Container container(Source{.file = model});
-        return std::ranges::any_of(container.named_files(with_images),
-                                   [&](const fs::path& named) { return is_file(named, file); });
-    } catch (const candela::Error&) {
-        return false;  // its reader will report the error
-    }
-}
-
 bool is_gltf(const fs::path& model) {
     const std::string extension = candela::extension_of(model);
     return extension == "gltf" || extension == "glb";
@@ -117,13 +91,8 @@ bool is_gltf(const fs::path& model) {
 
 }  // namespace
 
-bool is_buffer_of(const fs::path& model, const fs::path& file) {
-    // A GLB file contains its own buffer, and may be large.
-    return candela::extension_of(model) == "gltf" && is_named_in_gltf(model, file, false);
-}
-
 bool is_part_of(const fs::path& model, const fs::path& file) {
-    if (is_gltf(model)) return is_named_in_gltf(model, file, true);
+    if (is_gltf(model)) return gltf::is_named(model, file, gltf::Named::buffers_and_images);
     if (candela::extension_of(model) == "obj") return is_part_of_obj(model, file);
     return candela::extension_of(model) == "ply" && is_part_of_ply(model, file);
 }

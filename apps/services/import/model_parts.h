@@ -5,11 +5,8 @@
 
 namespace importing {
 
-/// Whether `file`, which exists, is read together with a model's triangles: a buffer of a glTF file. It may
-/// be reached by a link. False if `model` is not a model.
-bool is_buffer_of(const std::filesystem::path& model, const std::filesystem::path& file);
-
-/// Whether it is read when the model is imported: also a material library, or a picture named by one.
+/// Whether `file`, which exists, is read when `model` is imported: a buffer of a glTF file, a material
+/// library, or a picture named by one. It may be reached by a link. False if `model` is not a model.
 bool is_part_of(const std::filesystem::path& model, const std::filesystem::path& file);
 
 }  // namespace importing

@@ -37,8 +37,8 @@ fs::path all_verbs() {
     const fs::path file = beside_command("lib/candela/candela-verbs");
     if (!fs::exists(file)) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("this verb is not built yet: scripts/render.sh builds only what a picture "
-                                "needs, and 'cmake --build build/release' the rest ('{}' does not exist)",
+                    fmt::format("this is not built yet: scripts/render.sh builds only what most pictures "
+                                "need, and 'cmake --build build/release' the rest ('{}' does not exist)",
                                 file.string()));
     }
     return file;

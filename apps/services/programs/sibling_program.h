@@ -17,7 +17,7 @@ std::filesystem::path sibling_program(const char* program, const char* what, con
 /// The path of candela-diff, which is in a package of its own. Throws like sibling_program().
 std::filesystem::path comparing_program();
 
-/// The path of candela-verbs, which has all verbs of the command. Throws like sibling_program().
+/// The path of candela-verbs, which has all of the command. Throws like sibling_program().
 std::filesystem::path all_verbs();
 
 /// The path of candela-conformance. Throws like sibling_program().

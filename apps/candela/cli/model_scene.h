@@ -1,0 +1,19 @@
+// Models given in place of scenes.
+#pragma once
+
+#include <string>
+
+import candela.plugins;
+
+/// Call this before anything is reported if a model is given: where models are read elsewhere
+/// (cli/elsewhere.h), it does not return.
+void expect_models();
+
+/// The scene that shows a model. It is made once; so are the files of pictures embedded in the model, which
+/// live as long as the command. Reports what is lost.
+const std::string& scene_of_model(const std::string& file, bool allow_outside, bool with_animation,
+                                  candela::Registry& registry);
+
+/// Call this once the scene of a model has been compiled. Until then its triangles are kept, so that the file
+/// is read only once.
+void forget_triangles_of_models();
