@@ -43,7 +43,7 @@ if(CANDELA_LLD)
     add_link_options(--ld-path=${CANDELA_LLD})
 endif()
 
-# The compiler's remarks on each loop, next to object files with batch loops; tests/vectorization reads them. They take a tenth of a
+# The compiler's remarks on each loop, next to object files with batch loops; tests/packaging/vectorization reads them. They take a tenth of a
 # unit's compile time, so a target with CANDELA_FEW_BATCH_LOOPS adds the options to the sources that have such loops.
 set(CANDELA_VECTORIZATION_RECORDS OFF)
 if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_CXX_COMPILER_ID STREQUAL Clang AND NOT CANDELA_SANITIZE)

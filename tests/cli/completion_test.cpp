@@ -1,4 +1,4 @@
-// Completion for shells, and the manual pages: both agree with --help. tests/shells runs the shells
+// Completion for shells, and the manual pages: both agree with --help. tests/cli/shells runs the shells
 // themselves.
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>

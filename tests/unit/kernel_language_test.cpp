@@ -82,7 +82,7 @@ std::string essence(const std::string& text) {
 std::vector<fs::path> kernels() {
     std::vector<fs::path> files;
     for (const char* const folder :
-         {"plugins", "docs/examples/plugins", "tests/packaging", "tests/kernels", "sdk/templates"}) {
+         {"plugins", "docs/examples/plugins", "tests/packaging", "tests/targets/kernels", "sdk/templates"}) {
         for (const auto& entry : fs::recursive_directory_iterator(fs::path(CANDELA_TEST_SOURCE) / folder))
             if (entry.path().extension() == ".kernel" && entry.path().filename() != "only_cpp.kernel")
                 files.push_back(entry.path());

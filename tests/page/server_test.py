@@ -1,6 +1,6 @@
 """Tests `candela view` with requests that it must not answer, browsers that hold it up, many saves, and ending at any moment.
 
-By hand: CANDELA=build/release/bin/candela python3 tests/view/server_test.py
+By hand: CANDELA=build/release/bin/candela python3 tests/page/server_test.py
 """
 import json
 import os

@@ -1,6 +1,6 @@
 """Completes names from untrusted files in bash, zsh and fish: the resulting word is the name, and no part of it is executed.
 
-    CANDELA=build/release/bin/candela python3 tests/shells/completion_test.py [--seconds N] [--seed N] [--shells bash,zsh,fish]
+    CANDELA=build/release/bin/candela python3 tests/cli/shells/completion_test.py [--seconds N] [--seed N] [--shells bash,zsh,fish]
 
 Without options: names with special meaning in some shell, and some random ones.
 """

@@ -1,6 +1,6 @@
 """Runs `candela view` for a long time: saves without a pause, half of them broken, in several browsers; SIGINT in the middle.
 
-    CANDELA=build/release/bin/candela /usr/bin/python3 tests/view/soak.py [--minutes 20] [--browsers chromium,chromium,firefox,firefox]
+    CANDELA=build/release/bin/candela /usr/bin/python3 tests/page/soak.py [--minutes 20] [--browsers chromium,chromium,firefox,firefox]
 
 Every few seconds the saves pause, and all pages must show the last good version, and the errors of the last save if it is broken. The
 server and its largest child must not use ever more memory, files or threads.
@@ -18,7 +18,6 @@ import sys
 import threading
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "page"))
 from browser import DRAWS_BY_ITSELF, Browser
 from pictures import Picture
 from served import COMMAND, ENVIRONMENT, LONGEST, View, children_of, status_of

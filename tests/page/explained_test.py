@@ -1,7 +1,7 @@
 """The byte that an explained pixel ends with is the byte of the PNG: pixels of scenes with every shipped model, by `candela view` and by
 `candela explain`.
 
-By hand: CANDELA=build/release/bin/candela python3 tests/view/explained_test.py [PIXELS]
+By hand: CANDELA=build/release/bin/candela python3 tests/page/explained_test.py [PIXELS]
 """
 import json
 import os
@@ -17,7 +17,6 @@ import urllib.request
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "targets"))
 import scenes
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "page"))
 from pictures import Picture
 
 GLASS = pathlib.Path(__file__).resolve().parents[2] / "docs" / "examples" / "glass.toml"
