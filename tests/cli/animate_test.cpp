@@ -10,6 +10,8 @@
 
 #include "support/box_scene.h"
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -42,8 +44,6 @@ CommandResult animate(const fs::path& directory, std::vector<std::string> more =
     return run_candela(words, in(directory));
 }
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 /// When a file was last written, and its identity in the file system.
 auto stamp(const fs::path& file) { return fs::last_write_time(file); }
 
@@ -67,9 +67,8 @@ TEST_CASE("every frame is the picture that render --frame draws") {
     CHECK(names(directory / "frames") == std::vector<std::string>{".candela", "000.png", "001.png", "002.png",
                                                                   "003.png", "004.png", "005.png"});
     for (int i = 0; i < 6; ++i) {
-        REQUIRE(run_candela({"render", "scene.toml", "--frame", std::to_string(i), "-o", "one.png"},
-                            in(directory))
-                    .exit_code == 0);
+        succeeded(run_candela({"render", "scene.toml", "--frame", std::to_string(i), "-o", "one.png"},
+                              in(directory)));
         CHECK(read_file(directory / "one.png") ==
               read_file(directory / "frames" / ("00" + std::to_string(i) + ".png")));
     }
@@ -162,15 +161,10 @@ TEST_CASE("messages explain patterns, ranges and scenes that yield no frames") {
     for (const auto& [words, part] : mistakes) {
         std::vector<std::string> all = {"animate"};
         all.insert(all.end(), words.begin(), words.end());
-        const CommandResult result = run_candela(all, in(directory));
-        INFO(result.err);
-        CHECK(result.exit_code == 2);
-        CHECK(holds(result.err, part));
+        expect(run_candela(all, in(directory)), 2, {part});
     }
     CHECK(names(directory) == std::vector<std::string>{"scene.toml", "still.toml"});
-    const CommandResult beyond = run_candela({"render", "scene.toml", "--frame", "6"}, in(directory));
-    CHECK(beyond.exit_code == 2);
-    CHECK(holds(beyond.err, "there is no frame 6"));
+    expect(run_candela({"render", "scene.toml", "--frame", "6"}, in(directory)), 2, {"there is no frame 6"});
 }
 
 TEST_CASE("a mistake in a late frame is found before the first is rendered") {
@@ -179,10 +173,8 @@ TEST_CASE("a mistake in a late frame is found before the first is rendered") {
                                              "[[animation.track]]\npath = \"object.box.position\"\nkeys = "
                                              "[[0, [0, 0, 0]], [0.4, [5, 0, 0]]]\n");
     for (const char* const verb : {"animate", "check"}) {
-        const CommandResult result = run_candela({verb, "scene.toml"}, in(directory));
-        CHECK(result.exit_code == 3);
-        CHECK(holds(result.err, "scene.toml:29:"));
-        CHECK(holds(result.err, "in frame 5, by the track of 'object.box.position'"));
+        expect(run_candela({verb, "scene.toml"}, in(directory)), 3,
+               {"scene.toml:29:", "in frame 5, by the track of 'object.box.position'"});
     }
     CHECK_FALSE(fs::exists(directory / "frames"));
     // The earlier frames are intact.
@@ -200,9 +192,7 @@ TEST_CASE("check sums up the animation") {
 
 TEST_CASE("ffmpeg makes films of all frames, and no other files remain") {
     const fs::path directory = with_scene();
-    const CommandResult result = animate(directory, {"-o", "film.mp4", "-o", "out/film.gif"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(animate(directory, {"-o", "film.mp4", "-o", "out/film.gif"}));
     CHECK(names(directory) == std::vector<std::string>{"film.mp4", "out", "scene.toml"});
     CHECK(names(directory / "out") == std::vector<std::string>{"film.gif"});
     CHECK(read_file(directory / "film.mp4").substr(4, 4) == "ftyp");
@@ -216,19 +206,17 @@ TEST_CASE("ffmpeg makes films of all frames, and no other files remain") {
 
 TEST_CASE("a film without ffmpeg is an error that names ffmpeg, before anything is rendered") {
     const fs::path directory = with_scene();
-    const CommandResult result = run_candela(
-        {"animate", "scene.toml", "-o", "film.mp4"},
-        {.input = "", .environment = {{"PATH", (directory / "nothing").string()}}, .directory = directory});
-    CHECK(result.exit_code == 1);
-    CHECK(holds(result.err, "apt install ffmpeg"));
+    expect(run_candela({"animate", "scene.toml", "-o", "film.mp4"},
+                       {.input = "",
+                        .environment = {{"PATH", (directory / "nothing").string()}},
+                        .directory = directory}),
+           1, {"apt install ffmpeg"});
     CHECK(names(directory) == std::vector<std::string>{"scene.toml"});
 }
 
 TEST_CASE("new --animation writes an animated scene that is valid in all frames") {
     const fs::path directory = scratch_directory();
-    const CommandResult result = run_candela({"new", "--animation"}, in(directory));
-    CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "candela animate scene.toml"));
+    expect(run_candela({"new", "--animation"}, in(directory)), 0, {"candela animate scene.toml"});
     const CommandResult check = run_candela({"check", "scene.toml"}, in(directory));
     CHECK(check.exit_code == 0);
     CHECK(check.err.empty());
@@ -264,16 +252,12 @@ CommandResult checked_within(rlim_t seconds, const std::string& scene) {
 
 TEST_CASE("thousands of tracks cost as much as thousands of objects, not as their product") {
     constexpr int k_many = 4000;
-    const CommandResult result = checked_within(30, with_tracks(k_many, false));
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+    expect(checked_within(30, with_tracks(k_many, false)), 0);
 }
 
 TEST_CASE("among tracks of one value, each but the first is refused, once") {
     constexpr int k_many = 500;
-    const CommandResult result = checked_within(30, with_tracks(k_many, true));
-    CHECK(result.exit_code == 3);
-    CHECK(holds(result.err, "another track changes 'object.\"part 0\".size' already"));
-    INFO(result.err);
-    CHECK(holds(result.err, "and 449 more (449 of them errors)"));  // 50 are shown
+    expect(checked_within(30, with_tracks(k_many, true)), 3,
+           {"another track changes 'object.\"part 0\".size' already",
+            "and 449 more (449 of them errors)"});  // 50 are shown
 }

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 #include "support/valid_scene.h"
 
 namespace fs = std::filesystem;
@@ -47,16 +50,10 @@ Spoilt spoilt(const Change& change) {
 }
 
 CommandResult checked(const std::string& text) {
-    const fs::path directory = scratch_directory();
-    write_file(directory / "wedge.obj", k_valid_mesh);
-    write_file(directory / "scene.toml", text);
-    return run_candela({"check", "scene.toml"}, {.input = "", .environment = {}, .directory = directory});
-}
-
-std::size_t count_of(const std::string& text, const std::string& part) {
-    std::size_t count = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-    return count;
+    const Folder directory;
+    directory.write("wedge.obj", k_valid_mesh);
+    directory.write("scene.toml", text);
+    return directory.run("check scene.toml");
 }
 
 /// Expects an error for each mistake, at its place and with its message, and no others.
@@ -68,10 +65,10 @@ void check_mistakes(const std::vector<Mistake>& mistakes) {
         CHECK(result.exit_code == 3);
         CHECK(result.out.empty());
         CHECK(count_of(result.err, " error: ") == 1);
-        CHECK(result.err.find("scene.toml:" + scene.place + ": error: ") != std::string::npos);
+        CHECK(holds(result.err, "scene.toml:" + scene.place + ": error: "));
         for (const char* const part : mistake.message) {
             INFO(part);
-            CHECK(result.err.find(part) != std::string::npos);
+            CHECK(holds(result.err, part));
         }
     }
 }
@@ -85,7 +82,7 @@ void check_good(const std::vector<Change>& changes, const char* warning = nullpt
         if (warning == nullptr) {
             CHECK(result.err.empty());
         } else {
-            CHECK(result.err.find(warning) != std::string::npos);
+            CHECK(holds(result.err, warning));
         }
     }
 }
@@ -101,9 +98,7 @@ TEST_CASE("mistakes of the version") {
         {{"version = 1", "version = @\"1\""}, {"a string, \"1\""}},
         {{"version = 1", "version = 1\n@verison = 1"}, {"unknown key 'verison'", "did you mean 'version'?"}},
     });
-    const CommandResult none = checked(spoilt({"version = 1", ""}).text);
-    CHECK(none.exit_code == 3);
-    CHECK(none.err.find("scene.toml: error: the scene has no version") != std::string::npos);
+    expect(checked(spoilt({"version = 1", ""}).text), 3, {"scene.toml: error: the scene has no version"});
 }
 
 TEST_CASE("mistakes of the room") {
@@ -174,13 +169,12 @@ TEST_CASE("mistakes of the observer") {
                  "projection = \"orthographic\"\nheight = 0.01"}});
     check_good({{"projection = \"perspective\"", "projection = \"orthographic\""}},
                "warning: 'fov' has no effect in an orthographic view");
-    const CommandResult none =
+    expect(
         checked(spoilt({"[observer]\nposition   = [0.0, 0.5, 5.0]\nlook_at    = [0.0, 0.0, 0.0]\nup         "
                         "= [0.0, 1.0, 0.0]\nprojection = \"perspective\"\nfov        = 40.0\n",
                         ""})
-                    .text);
-    CHECK(none.exit_code == 3);
-    CHECK(none.err.find("scene.toml: error: the scene has no [observer]") != std::string::npos);
+                    .text),
+        3, {"scene.toml: error: the scene has no [observer]"});
 }
 
 TEST_CASE("mistakes of the image") {
@@ -249,10 +243,7 @@ TEST_CASE("mistakes of the models") {
     for (const auto& [change, what] : std::vector<std::pair<Change, const char*>>{
              {{"[shading]\nmodel = \"phong\"", ""}, "the scene names no shading model"},
              {{"[reflection]\nmodel = \"phong\"", ""}, "the scene names no reflection model"}}) {
-        const CommandResult result = checked(spoilt(change).text);
-        CHECK(result.exit_code == 3);
-        CHECK(result.err.find(what) != std::string::npos);
-        CHECK(result.err.find("--defaults") != std::string::npos);
+        expect(checked(spoilt(change).text), 3, {what, "--defaults"});
     }
     check_good({{"[shading]\nmodel = \"phong\"", "[shading]\nmodel = \"gouraud\""},
                 {"reflection = \"blinn-phong\"", "reflection = \"phong\""}});
@@ -451,9 +442,7 @@ TEST_CASE("a mistake in every table is found in one run, sorted by place, geomet
     replace("type      = \"point\"", "type      = \"poynt\"");
     replace("position    = [0.0, 3.5, 0.25]", "position    = [0.0, -1.0, 0.25]");
     replace("position = [0.0, 1.0, -3.0]", "position = [2.7, 0.25, 0.0]");
-    const CommandResult result = checked(text);
-    INFO(result.err);
-    CHECK(result.exit_code == 3);
+    const CommandResult result = expect(checked(text), 3);
     std::size_t before = 0;
     for (const char* const part :
          {":4:10: error: 'width'", ":13:14: error: 'fov'", ":18:14: error: 'samples'",
@@ -469,11 +458,7 @@ TEST_CASE("a mistake in every table is found in one run, sorted by place, geomet
 }
 
 TEST_CASE("glass that absorbs light at once is an error at its place") {
-    const CommandResult result = checked(
-        "version = 1\n[[object]]\ntype = \"sphere\"\nreflection = \"dielectric\"\n"
-        "[object.material]\ndepth = 1e-45\n");
-    INFO(result.err);
-    CHECK(result.exit_code == 3);
-    CHECK(result.err.find("scene.toml:6:9: error: 'depth': 1e-45 is outside its range: at least 1e-06") !=
-          std::string::npos);
+    expect(checked("version = 1\n[[object]]\ntype = \"sphere\"\nreflection = \"dielectric\"\n"
+                   "[object.material]\ndepth = 1e-45\n"),
+           3, {"scene.toml:6:9: error: 'depth': 1e-45 is outside its range: at least 1e-06"});
 }

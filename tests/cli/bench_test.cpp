@@ -4,12 +4,13 @@
 #include <string>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 TEST_CASE("bench: the figures are positive and consistent") {
-    const CommandResult result = run_candela(
-        {"bench", "--frames", "3", "--warm-up", "1", "--width", "160", "--height", "120", "--json"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(run_candela(
+        {"bench", "--frames", "3", "--warm-up", "1", "--width", "160", "--height", "120", "--json"}));
     const auto f = nlohmann::json::parse(result.out);
     CHECK(f.at("width") == 160);
     CHECK(f.at("height") == 120);
@@ -26,18 +27,14 @@ TEST_CASE("bench: the figures are positive and consistent") {
 }
 
 TEST_CASE("bench: prints a table and leaves no file behind") {
-    const std::filesystem::path directory = scratch_directory();
-    const CommandResult result = run_candela({"bench", "--frames", "2", "--width", "64", "--height", "64"},
-                                             {.input = "", .environment = {}, .directory = directory});
-    CHECK(result.exit_code == 0);
-    CHECK(result.out.find("frame") != std::string::npos);
-    CHECK(result.out.find("Mpixel/s") != std::string::npos);
+    const Folder directory;
+    expect_out(directory.run("bench --frames 2 --width 64 --height 64"), 0, {"frame", "Mpixel/s"});
     CHECK(std::filesystem::is_empty(directory));
 }
 
 TEST_CASE("bench: invalid numbers are usage errors, and invalid scenes are scene errors") {
-    CHECK(run_candela({"bench", "--frames", "0"}).exit_code == 2);
-    CHECK(run_candela({"bench", "--threads", "-1"}).exit_code == 2);
-    CHECK(run_candela({"bench", "--set", "light.lamp.intensity=-1"}).exit_code == 3);
-    CHECK(run_candela({"bench", "no-such-scene.toml"}).exit_code == 1);
+    expect(run_candela({"bench", "--frames", "0"}), 2);
+    expect(run_candela({"bench", "--threads", "-1"}), 2);
+    expect(run_candela({"bench", "--set", "light.lamp.intensity=-1"}), 3);
+    expect(run_candela({"bench", "no-such-scene.toml"}), 1);
 }

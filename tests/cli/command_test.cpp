@@ -4,12 +4,13 @@
 #include <string>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string scene() {
     return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight "
@@ -27,55 +28,44 @@ TEST_CASE("a missing or unknown verb is a usage error with help") {
     CHECK(none.exit_code == 2);
     CHECK(none.out.empty());
     CHECK(holds(none.err, "Verbs"));
-    const CommandResult wrong = run_candela({"redner"});
-    CHECK(wrong.exit_code == 2);
-    CHECK(holds(wrong.err, "did you mean 'render'?"));
+    expect(run_candela({"redner"}), 2, {"did you mean 'render'?"});
 }
 
 TEST_CASE("help and version go to standard output") {
     for (const auto& arguments : {std::vector<std::string>{"--help"}, {"help"}, {"-h"}}) {
-        const CommandResult help = run_candela(arguments);
-        CHECK(help.exit_code == 0);
-        CHECK(holds(help.out, "Usage: candela VERB"));
+        const CommandResult help = expect_out(run_candela(arguments), 0, {"Usage: candela VERB"});
         CHECK(help.err.empty());
     }
     for (const char* const verb : {"new", "render", "check", "diff", "list", "describe", "schema"}) {
         INFO(verb);
-        const CommandResult help = run_candela({verb, "--help"});
-        CHECK(help.exit_code == 0);
-        CHECK(holds(help.out, std::string("Usage: candela ") + verb));
+        const CommandResult help =
+            expect_out(run_candela({verb, "--help"}), 0, {std::string("Usage: candela ") + verb});
         CHECK(run_candela({"help", verb}).out == help.out);
     }
     CHECK(holds(run_candela({"--version"}).out, "candela "));
 }
 
 TEST_CASE("unknown options and wrong values are usage errors with suggestions") {
-    const CommandResult option = run_candela({"render", "--relfection", "phong"});
-    CHECK(option.exit_code == 2);
-    CHECK(holds(option.err, "did you mean '--reflection'?"));
-    CHECK(run_candela({"render", "--thr", "2"}).exit_code == 2);
-    CHECK(run_candela({"render", "--threads", "0"}).exit_code == 2);
-    CHECK(run_candela({"render", "--threads", "many"}).exit_code == 2);
-    CHECK(run_candela({"render", "--set", "image.width"}).exit_code == 2);
-    CHECK(run_candela({"list", "lightz"}).exit_code == 2);
+    expect(run_candela({"render", "--relfection", "phong"}), 2, {"did you mean '--reflection'?"});
+    expect(run_candela({"render", "--thr", "2"}), 2);
+    expect(run_candela({"render", "--threads", "0"}), 2);
+    expect(run_candela({"render", "--threads", "many"}), 2);
+    expect(run_candela({"render", "--set", "image.width"}), 2);
+    expect(run_candela({"list", "lightz"}), 2);
     CHECK(holds(run_candela({"list", "lightz"}).err, "did you mean 'light'?"));
-    CHECK(run_candela({"describe"}).exit_code == 2);
-    CHECK(run_candela({"check"}).exit_code == 2);
-    const CommandResult set = run_candela(
-        {"list"}, {.input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "mmx"}}, .directory = {}});
-    CHECK(set.exit_code == 2);
-    CHECK(holds(set.err, "baseline, avx2 or avx512"));
+    expect(run_candela({"describe"}), 2);
+    expect(run_candela({"check"}), 2);
+    expect(run_candela({"list"},
+                       {.input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "mmx"}}, .directory = {}}),
+           2, {"baseline, avx2 or avx512"});
 }
 
 TEST_CASE("without arguments, render makes candela.png of the default scene") {
-    const fs::path directory = scratch_directory();
-    const CommandResult result =
-        run_candela({"render"}, {.input = "", .environment = {}, .directory = directory});
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+    const Folder directory;
+    const CommandResult result = expect(directory.run("render"), 0);
     CHECK(result.out.empty());
     CHECK(holds(result.err, "candela.png: 512 x 512, 12 triangles"));
-    CHECK(read_file(directory / "candela.png").starts_with(k_png_signature));
+    CHECK(directory.read("candela.png").starts_with(k_png_signature));
     CHECK(std::distance(fs::directory_iterator(directory), {}) == 1);
 }
 
@@ -94,28 +84,24 @@ TEST_CASE("on a terminal, -o - is refused") {
 }
 
 TEST_CASE("flags may precede the scene") {
-    const fs::path directory = scratch_directory();
-    const std::string file = write_file(directory / "scene.toml", scene()).string();
-    const CommandResult result =
-        run_candela({"render", file, "-o", (directory / "a.ppm").string(), "--width", "33", "--height", "7",
-                     "--samples", "4", "--threads", "2", "--verbose", "--shading", "flat"});
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "33 x 7"));
-    CHECK(holds(result.err, "tiles"));
-    CHECK(read_file(directory / "a.ppm").starts_with("P6\n33 7\n255\n"));
+    const Folder directory;
+    const std::string file = directory.write("scene.toml", scene()).string();
+    expect(run_candela({"render", file, "-o", (directory / "a.ppm").string(), "--width", "33", "--height",
+                        "7", "--samples", "4", "--threads", "2", "--verbose", "--shading", "flat"}),
+           0, {"33 x 7", "tiles"});
+    CHECK(directory.read("a.ppm").starts_with("P6\n33 7\n255\n"));
 }
 
 TEST_CASE("an invalid scene has exit code 3, and no picture is written") {
-    const fs::path directory = scratch_directory();
-    const std::string file = write_file(directory / "scene.toml", scene() + "[image2]\n").string();
+    const Folder directory;
+    const std::string file = directory.write("scene.toml", scene() + "[image2]\n").string();
     const CommandResult result = run_candela({"render", file, "-o", (directory / "a.png").string()});
     CHECK(result.exit_code == 3);
     CHECK(result.out.empty());
     CHECK(holds(result.err, file + ":18:2: error: unknown key 'image2' in the scene"));
-    CHECK_FALSE(fs::exists(directory / "a.png"));
-    CHECK(run_candela({"check", file}).exit_code == 3);
-    CHECK(run_candela({"render", (directory / "none.toml").string()}).exit_code == 1);
+    CHECK_FALSE(directory.has("a.png"));
+    expect(run_candela({"check", file}), 3);
+    expect(run_candela({"render", (directory / "none.toml").string()}), 1);
 }
 
 TEST_CASE("check reports on standard output that a valid scene is valid") {
@@ -130,11 +116,12 @@ TEST_CASE("check reports on standard output that a valid scene is valid") {
 }
 
 TEST_CASE("check --print prints the scene as one file that gives the same scene") {
-    const fs::path directory = scratch_directory();
+    const Folder directory;
     write_file(directory / "parts" / "lights.toml",
                "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [1, 1, 3]\n");
-    write_file(directory / "mesh.obj", "v 0 2 0\nv 1 2 0\nv 0 3 0\nf 1 2 3\n");
-    const std::string file = write_file(directory / "scene.toml",
+    directory.write("mesh.obj", "v 0 2 0\nv 1 2 0\nv 0 3 0\nf 1 2 3\n");
+    const std::string file = directory
+                                 .write("scene.toml",
                                         "include = [\"parts/lights.toml\"]\nversion = "
                                         "1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
                                         "0]\n[image]\nwidth = 32\nheight = 32\n[[object]]\ntype = "
@@ -147,9 +134,7 @@ TEST_CASE("check --print prints the scene as one file that gives the same scene"
         words.insert(words.end(), more.begin(), more.end());
         return run_candela(words);
     };
-    const CommandResult printed = with_more({"check", file, "--print"});
-    INFO(printed.err << printed.out);
-    REQUIRE(printed.exit_code == 0);
+    const CommandResult printed = succeeded(with_more({"check", file, "--print"}));
     CHECK(printed.out.starts_with("version = 1\n"));
     CHECK_FALSE(holds(printed.out, "include"));
     CHECK(holds(printed.out, "intensity          = 7.0\n"));
@@ -159,44 +144,38 @@ TEST_CASE("check --print prints the scene as one file that gives the same scene"
     // From another directory, without any other arguments.
     const std::string copy = write_file(directory / "elsewhere" / "copy.toml", printed.out).string();
     REQUIRE(with_more({"render", file, "-o", (directory / "a.ppm").string()}).exit_code == 0);
-    REQUIRE(run_candela({"render", copy, "-o", (directory / "b.ppm").string()}).exit_code == 0);
-    CHECK((read_file(directory / "a.ppm") == read_file(directory / "b.ppm")));
+    succeeded(run_candela({"render", copy, "-o", (directory / "b.ppm").string()}));
+    CHECK((directory.read("a.ppm") == directory.read("b.ppm")));
     CHECK(run_candela({"check", copy, "--print"}).out == printed.out);
     CHECK(run_candela({"check", file, "--print"}).out.empty());  // no model
-    CHECK(run_candela({"check", file, "--print", "--json"}).exit_code == 2);
+    expect(run_candela({"check", file, "--print", "--json"}), 2);
 }
 
 TEST_CASE("a picture that cannot be written is an error, before and after rendering") {
-    const fs::path directory = scratch_directory();
-    const CommandResult format = run_candela({"render", "-o", (directory / "a.pgn").string()});
-    CHECK(format.exit_code == 2);
-    CHECK(holds(format.err, "did you mean '.png'?"));
-    CHECK(run_candela({"render", "-o", (directory / "noextension").string()}).exit_code == 2);
-    const CommandResult gone = run_candela({"render", "-o", (directory / "gone" / "a.png").string()});
-    CHECK(gone.exit_code == 1);
-    CHECK(holds(gone.err, "there is no folder"));
+    const Folder directory;
+    expect(run_candela({"render", "-o", (directory / "a.pgn").string()}), 2, {"did you mean '.png'?"});
+    expect(run_candela({"render", "-o", (directory / "noextension").string()}), 2);
+    expect(run_candela({"render", "-o", (directory / "gone" / "a.png").string()}), 1, {"there is no folder"});
     fs::create_directory(directory / "dir.png");
     CHECK(holds(run_candela({"render", "-o", (directory / "dir.png").string()}).err, "is a directory"));
 }
 
 TEST_CASE("a full disk is an error and leaves no partial file") {
-    const CommandResult result = run_candela({"render", "-o", "/dev/full"});
-    CHECK(result.exit_code == 2);  // no extension
-    const fs::path directory = scratch_directory();
+    expect(run_candela({"render", "-o", "/dev/full"}), 2);  // no extension
+    const Folder directory;
     fs::create_symlink("/dev/full", directory / "full.png");
-    const CommandResult full = run_candela({"render", "-o", (directory / "full.png").string()});
-    CHECK(full.exit_code == 1);
-    CHECK(holds(full.err, "No space left on device"));
-    CHECK(run_program({"sh", "-c", std::string(CANDELA_TEST_COMMAND) + " list > /dev/full"}).exit_code == 1);
+    const CommandResult full = expect(run_candela({"render", "-o", (directory / "full.png").string()}), 1,
+                                      {"No space left on device"});
+    expect(run_program({"sh", "-c", std::string(CANDELA_TEST_COMMAND) + " list > /dev/full"}), 1);
 }
 
 TEST_CASE(
     "the old picture keeps its place and its permissions until the new one is complete; links stay links") {
-    const fs::path directory = scratch_directory();
-    const fs::path file = write_file(directory / "a.png", "old");
+    const Folder directory;
+    const fs::path file = directory.write("a.png", "old");
     fs::permissions(file, fs::perms::owner_all);
     fs::create_symlink("a.png", directory / "link.png");
-    CHECK(run_candela({"render", "-o", (directory / "link.png").string()}).exit_code == 0);
+    expect(run_candela({"render", "-o", (directory / "link.png").string()}), 0);
     CHECK(fs::is_symlink(directory / "link.png"));
     CHECK(read_file(file).starts_with(k_png_signature));
     CHECK(fs::status(file).permissions() == fs::perms::owner_all);
@@ -240,34 +219,33 @@ TEST_CASE("list and describe show the contents of manifests") {
         CHECK(holds(phong.out, part));
     }
     CHECK(holds(run_candela({"describe", "teapot"}).out, "Newell (1975)"));
-    CHECK(run_candela({"describe", "phong"}).exit_code == 2);
-    const CommandResult unknown = run_candela({"describe", "reflection/fong"});
-    CHECK(unknown.exit_code == 1);
-    CHECK(holds(unknown.err, "did you mean 'phong'?"));
+    expect(run_candela({"describe", "phong"}), 2);
+    expect(run_candela({"describe", "reflection/fong"}), 1, {"did you mean 'phong'?"});
 }
 
 TEST_CASE("refused plugins are warnings on standard error, and the others still work") {
-    const fs::path directory = scratch_directory();
-    write_file(directory / "reflection-text.so", "no library");
-    const CommandResult list = run_candela({"list", "--plugin-dir", directory.string()});
+    const Folder directory;
+    directory.write("reflection-text.so", "no library");
+    const CommandResult list = run_candela({"list", "--plugin-dir", directory.path().string()});
     CHECK(list.exit_code == 0);
     CHECK(holds(list.err, "reflection-text.so' is refused: its manifest"));
     CHECK(holds(list.out, "blinn-phong"));
-    CHECK(run_candela({"list", "--plugin-dir", (directory / "none").string()}).exit_code == 1);
+    expect(run_candela({"list", "--plugin-dir", (directory / "none").string()}), 1);
 }
 
 TEST_CASE("a broken mesh file is an error with the object's place, exit code 1") {
-    const fs::path directory = scratch_directory();
+    const Folder directory;
     const auto message = [&](const std::string& name, const std::string& content) {
-        write_file(directory / name, content);
+        directory.write(name, content);
         const std::string file =
-            write_file(directory / "scene.toml",
+            directory
+                .write("scene.toml",
                        scene() + "[[object]]\nname = \"thing\"\ntype = \"mesh\"\nfile = \"" + name + "\"\n")
                 .string();
-        const CommandResult result = run_candela({"render", file, "-o", (directory / "a.png").string()});
-        CHECK(result.exit_code == 1);
-        CHECK(holds(result.err, "scene.toml:18:1: error: object 'thing': plugin shape/mesh:"));
-        CHECK_FALSE(fs::exists(directory / "a.png"));
+        const CommandResult result =
+            expect(run_candela({"render", file, "-o", (directory / "a.png").string()}), 1,
+                   {"scene.toml:18:1: error: object 'thing': plugin shape/mesh:"});
+        CHECK_FALSE(directory.has("a.png"));
         return result.err;
     };
     const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using Catch::Approx;
@@ -78,16 +80,12 @@ class Folder {
         return run_candela(words, {.input = "", .environment = {}, .directory = path_});
     }
     Ppm made(const std::vector<std::string>& words, const std::string& file) const {
-        const CommandResult result = run(words);
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
+        succeeded(run(words));
         return ppm_in(path_ / file);
     }
     std::string error(std::vector<std::string> words, int exit_code) const {
         words.insert(words.begin(), {"compare", "face.toml"});
-        const CommandResult result = run(words);
-        INFO(result.err << result.out);
-        CHECK(result.exit_code == exit_code);
+        const CommandResult result = expect(run(words), exit_code);
         CHECK_FALSE(fs::exists(path_ / "comparison.png"));
         return result.err;
     }
@@ -96,8 +94,6 @@ class Folder {
   private:
     fs::path path_;
 };
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 constexpr int k_margin = 4, k_line = 10;
 
@@ -146,10 +142,8 @@ TEST_CASE("with --difference, a sheet shows how much each picture differs from t
                     "--json", "-o", "sheet.ppm"});
     CHECK(result.exit_code != 0);  // "lambert " is not a model
     const CommandResult sound =
-        folder.run({"compare", "face.toml", "--reflection=lambert,half-lambert", "--vary",
-                    "light.sun.intensity=1,0.5", "--difference", "--json", "-o", "sheet.ppm"});
-    INFO(sound.err);
-    REQUIRE(sound.exit_code == 0);
+        succeeded(folder.run({"compare", "face.toml", "--reflection=lambert,half-lambert", "--vary",
+                              "light.sun.intensity=1,0.5", "--difference", "--json", "-o", "sheet.ppm"}));
     const Json images = Json::parse(sound.out)["pictures"];
     REQUIRE(images.size() == 4);
     CHECK_FALSE(images[0].contains("difference"));
@@ -169,10 +163,9 @@ TEST_CASE("with --difference, a sheet shows how much each picture differs from t
 
 TEST_CASE("diagnostics of a later picture are reported, and those of all pictures only once") {
     const Folder folder;
-    const CommandResult result = folder.run({"compare", "face.toml", "--reflection=phong", "--vary",
-                                             "object.0.material.ks=0.1,0.9,0.1e0", "-o", "sheet.ppm"});
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+    const CommandResult result = expect(folder.run({"compare", "face.toml", "--reflection=phong", "--vary",
+                                                    "object.0.material.ks=0.1,0.9,0.1e0", "-o", "sheet.ppm"}),
+                                        0);
     const std::size_t first = result.err.find("warning");
     REQUIRE(first != std::string::npos);
     CHECK(result.err.find("warning", first + 1) == std::string::npos);

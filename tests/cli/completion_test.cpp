@@ -10,19 +10,13 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
 const std::string k_examples = CANDELA_TEST_SOURCE "/docs/examples/";
-
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-}
 
 /// The completions of the last word, without meanings.
 std::set<std::string> completions(const std::vector<std::string>& words, const fs::path& directory = {}) {
@@ -171,7 +165,7 @@ TEST_CASE("every verb has a manual page with every option of its help") {
     const CommandResult overview = run_candela({"--help-as", "man"});
     int verbs = 0;
     for (const std::string& verb : completions({""})) {
-        CHECK(overview.out.find("\n.B " + verb + "\n") != std::string::npos);
+        CHECK(holds(overview.out, "\n.B " + verb + "\n"));
         if (verb == "plugin" || verb == "exercise") continue;  // their subverbs have pages
         INFO(verb);
         ++verbs;
@@ -187,7 +181,7 @@ TEST_CASE("every verb has a manual page with every option of its help") {
         for (std::sregex_iterator each(shown.begin(), shown.end(), option), end; each != end; ++each) {
             const std::string in_troff = std::regex_replace(each->str(), std::regex("-"), R"(\-)");
             INFO(each->str());
-            CHECK(page.out.find(in_troff) != std::string::npos);
+            CHECK(holds(page.out, in_troff));
         }
     }
     CHECK(verbs >= 15);

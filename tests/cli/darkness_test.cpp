@@ -3,6 +3,7 @@
 #include <string>
 
 #include "support/command.h"
+#include "support/text.h"
 
 namespace {
 
@@ -18,8 +19,6 @@ std::string warning(const std::string& lights_and_objects, const std::string& lo
     CHECK(result.exit_code == exit_code);
     return result.err;
 }
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string light(const std::string& values) { return "[[light]]\ntype = \"point\"\n" + values; }
 const std::string k_ball = "[[object]]\nname = \"ball\"\ntype = \"sphere\"\n";

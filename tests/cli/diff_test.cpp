@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using Catch::Approx;
@@ -21,8 +23,6 @@ namespace {
 
 using Json = nlohmann::json;
 using Numbers = std::vector<int>;
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::string bytes(const Numbers& numbers) {
     std::string result;
@@ -67,18 +67,14 @@ class Folder {
 
     Json figures(std::vector<std::string> arguments) const {
         arguments.emplace_back("--json");
-        const CommandResult result = diff(std::move(arguments));
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
+        const CommandResult result = succeeded(diff(std::move(arguments)));
         CHECK(result.err.empty());
         return Json::parse(result.out);
     }
 
     /// The only line on stderr; nothing else is printed.
     std::string error(std::vector<std::string> arguments, int exit_code) const {
-        const CommandResult result = diff(std::move(arguments));
-        INFO(result.err);
-        CHECK(result.exit_code == exit_code);
+        const CommandResult result = expect(diff(std::move(arguments)), exit_code);
         CHECK(result.out.empty());
         CHECK(result.err.starts_with("candela: error: "));
         CHECK(result.err.find('\n') == result.err.size() - 1);
@@ -381,10 +377,10 @@ TEST_CASE("the heat-map is complete or not written") {
     CHECK(holds(folder.error({"a.ppm", "b.ppm", "-o", "full.png"}, 1), "No space left on device"));
     for (const auto& entry : fs::directory_iterator(folder / "."))
         CHECK_FALSE(entry.path().filename().string().starts_with(".candela"));
-    CHECK(run_program({"sh", "-c",
-                       std::string(CANDELA_TEST_COMMAND) + " diff " + (folder / "a.ppm").string() + " " +
-                           (folder / "b.ppm").string() + " > /dev/full"})
-              .exit_code == 1);
+    expect(run_program({"sh", "-c",
+                        std::string(CANDELA_TEST_COMMAND) + " diff " + (folder / "a.ppm").string() + " " +
+                            (folder / "b.ppm").string() + " > /dev/full"}),
+           1);
 }
 
 // On a uniform grey, the visible differences follow Ward Larson's threshold: at 47.4 cd/m² (between the

@@ -13,6 +13,9 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -82,46 +85,38 @@ CommandResult check(const fs::path& file) { return run_candela({"check", file.st
 }  // namespace
 
 TEST_CASE("the README's scene is valid, and its mistake is explained as shown there") {
-    const fs::path directory = scratch_directory();
+    const Folder directory;
     std::string scene = block("README.md", "toml");
-    const CommandResult good = check(write_file(directory / "good.toml", scene));
-    INFO(good.err);
-    CHECK(good.exit_code == 0);
+    const CommandResult good = expect(check(directory.write("good.toml", scene)), 0);
     CHECK(good.err.empty());
 
     scene.replace(scene.find("intensity"), 9, "intensty");
-    write_file(directory / "ball.toml", scene);
-    const CommandResult bad =
-        run_candela({"check", "ball.toml"}, {.input = "", .environment = {}, .directory = directory});
+    directory.write("ball.toml", scene);
+    const CommandResult bad = directory.run("check ball.toml");
     CHECK(bad.exit_code == 3);
     CHECK(bad.err == block("README.md", "text"));
 }
 
 TEST_CASE("the scene of docs/user/scene-file.md is valid") {
-    const fs::path directory = scratch_directory();
-    write_file(directory / "lights.toml", "[[light]]\ntype = \"ambient\"\n");
-    const CommandResult result =
-        check(write_file(directory / "scene.toml", block("docs/user/scene-file.md", "toml")));
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+    const Folder directory;
+    directory.write("lights.toml", "[[light]]\ntype = \"ambient\"\n");
+    expect(check(directory.write("scene.toml", block("docs/user/scene-file.md", "toml"))), 0);
 }
 
 TEST_CASE("docs/plugins/versioning.md states this interface version and this fingerprint") {
     const std::string text = read_file(k_source / "docs/plugins/versioning.md");
     const std::string version = std::to_string(CANDELA_INTERFACE_VERSION);
     CHECK(block("docs/plugins/versioning.md", "text") == std::string(CANDELA_ABI) + "\n");
-    CHECK(text.find("| interface version, `" + version + "` |") != std::string::npos);
-    CHECK(text.find("`candela-plugin-interface-" + version + "`") != std::string::npos);
-    CHECK(text.find("this is '" + std::string(CANDELA_ABI)) != std::string::npos);
+    CHECK(holds(text, "| interface version, `" + version + "` |"));
+    CHECK(holds(text, "`candela-plugin-interface-" + version + "`"));
+    CHECK(holds(text, "this is '" + std::string(CANDELA_ABI)));
 }
 
 TEST_CASE("the example scenes are valid") {
     int checked = 0;
     for (const auto& entry : fs::directory_iterator(k_source / "docs/examples")) {
         if (entry.path().extension() != ".toml") continue;
-        const CommandResult result = check(entry.path());
-        INFO(result.err);
-        CHECK(result.exit_code == 0);
+        expect(check(entry.path()), 0);
         ++checked;
     }
     CHECK(checked > 0);
@@ -202,12 +197,10 @@ TEST_CASE("the twelve files to read in docs/internals/architecture.md exist") {
 }
 
 TEST_CASE("the commands in the documentation can be run as printed") {
-    const fs::path d = scratch_directory();
-    const auto run = [&](const std::vector<std::string>& words) {
-        return run_candela(words, {.input = "", .environment = {}, .directory = d});
-    };
-    write_file(d / "ball.toml", block("README.md", "toml"));
-    write_file(d / "velvet.kernel", block("docs/plugins/adding-a-model.md", "glsl"));
+    const Folder d;
+    const auto run = [&](const std::vector<std::string>& words) { return d.run_words(words); };
+    d.write("ball.toml", block("README.md", "toml"));
+    d.write("velvet.kernel", block("docs/plugins/adding-a-model.md", "glsl"));
     for (const char* const image : {"a.png", "b.png", "before.png", "after.png", "before.exr", "after.exr"})
         REQUIRE(run({"render", "-o", image, "--width", "64", "--height", "64"}).exit_code == 0);
     std::vector<fs::path> pages{"README.md"};
@@ -242,10 +235,8 @@ TEST_CASE("the commands in the documentation can be run as printed") {
 }
 
 TEST_CASE("the commands and values that help gives as examples can be used as printed") {
-    const fs::path d = scratch_directory();
-    const auto run = [&](const std::vector<std::string>& words) {
-        return run_candela(words, {.input = "", .environment = {}, .directory = d});
-    };
+    const Folder d;
+    const auto run = [&](const std::vector<std::string>& words) { return d.run_words(words); };
     const auto help_of = [&](const std::string& verb) {
         std::istringstream words(run({verb, "--help"}).out);
         std::string text;
@@ -281,9 +272,7 @@ TEST_CASE("the commands and values that help gives as examples can be used as pr
     REQUIRE(run({"new", "scene.toml"}).exit_code == 0);
     words.erase(words.begin());
     words.insert(words.end(), {"--width", "32", "--height", "24"});
-    const CommandResult result = run(words);
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+    expect(run(words), 0);
 
     const std::vector<std::string> small = {"--width", "32", "--height", "24"};
     std::size_t count = 0;

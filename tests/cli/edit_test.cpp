@@ -13,6 +13,9 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -24,19 +27,17 @@ const std::string k_scene =
     "[[light]]\nname = \"key\"\ntype = \"point\"\nposition = [1, 1, 3]\n"
     "[[object]]\ntype = \"sphere\"\nradius = 0.5\n";
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 struct Edited {
     CommandResult result;
     std::string text;
 };
 
 Edited edit(const std::vector<std::string>& options) {
-    const fs::path folder = scratch_directory();
-    const fs::path file = write_file(folder / "scene.toml", k_scene);
+    const Folder folder;
+    const fs::path file = folder.write("scene.toml", k_scene);
     std::vector<std::string> words{"edit", "scene.toml"};
     words.insert(words.end(), options.begin(), options.end());
-    Edited edited{run_candela(words, {.input = "", .environment = {}, .directory = folder}), {}};
+    Edited edited{folder.run_words(words), {}};
     edited.text = read_file(file);
     // Neither a draft nor any other file remains next to the scene.
     CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
@@ -63,8 +64,8 @@ bool act_before_sync(pid_t program, const std::function<void()>& act) {
 }  // namespace
 
 TEST_CASE("candela edit does not overwrite changes saved since it read the file") {
-    const fs::path folder = scratch_directory();
-    const fs::path file = write_file(folder / "scene.toml", k_scene);
+    const Folder folder;
+    const fs::path file = folder.write("scene.toml", k_scene);
     const std::string theirs = k_scene + "# Theirs.\n";
     CommandSetup setup{.input = "", .environment = {}, .directory = folder};
     setup.prepare = [] {
@@ -120,29 +121,24 @@ TEST_CASE("candela edit writes nothing and says why if the scene would have erro
 }
 
 TEST_CASE("candela edit needs a file to write into") {
-    CHECK(run_candela({"edit", "--change", "image.width=9"}).exit_code == 2);
-    const CommandResult piped = run_candela({"edit", "-", "--change", "image.width=9"},
-                                            {.input = k_scene, .environment = {}, .directory = {}});
-    CHECK(piped.exit_code == 2);
-    CHECK(holds(piped.err, "pipe"));
+    expect(run_candela({"edit", "--change", "image.width=9"}), 2);
+    expect(run_candela({"edit", "-", "--change", "image.width=9"},
+                       {.input = k_scene, .environment = {}, .directory = {}}),
+           2, {"pipe"});
     CHECK(run_candela({"edit", "missing.toml", "--change", "image.width=9"}).exit_code != 0);
 }
 
 TEST_CASE("candela edit changes the first line of a file with a byte order mark, and keeps the mark") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     const std::string mark = "\xef\xbb\xbf";
     const fs::path file =
-        write_file(folder / "scene.toml", mark + "image = { width = 100, height = 50 }\n" + k_scene);
-    const CommandResult result =
-        run_candela({"edit", "scene.toml", "--change", "image.width=200", "--change", "image.samples=4"},
-                    {.input = "", .environment = {}, .directory = folder});
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+        folder.write("scene.toml", mark + "image = { width = 100, height = 50 }\n" + k_scene);
+    expect(folder.run("edit scene.toml --change image.width=200 --change image.samples=4"), 0);
     CHECK(read_file(file) == mark + "image = { width = 200, height = 50, samples = 4 }\n" + k_scene);
 }
 
 TEST_CASE("any number of objects and changes is edited in one go") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     std::string scene = k_scene;
     std::vector<std::string> words{"edit", "scene.toml"};
     for (int i = 0; i < 300; ++i) {
@@ -152,10 +148,8 @@ TEST_CASE("any number of objects and changes is edited in one go") {
         words.push_back("--change=object." + name + ".color=[" + std::to_string(i % 250) + ",9,9]");
         words.push_back("--change=object." + name + ".radius=0.011");
     }
-    const fs::path file = write_file(folder / "scene.toml", scene);
-    const CommandResult result = run_candela(words, {.input = "", .environment = {}, .directory = folder});
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+    const fs::path file = folder.write("scene.toml", scene);
+    expect(folder.run_words(words), 0);
     const std::string text = read_file(file);
     CHECK(holds(text,
                 "name = \"s7\"\ntype = \"sphere\"\nradius = 0.011\nposition = [-3.825000, 2, 0]\ncolor = [7, "

@@ -32,9 +32,7 @@ const std::string k_image = std::string("P6\n4 1\n255\n") + "\xff" + std::string
 TEST_CASE("an environment picture, relative to the scene's file, is visible around the object") {
     const fs::path d = scratch_directory();
     write_file(d / "sky.ppm", k_image);
-    const CommandResult result = render("environment = \"sky.ppm\"", d);
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(render("environment = \"sky.ppm\"", d));
     const std::string picture = read_file(d / "out.ppm");
     const std::size_t first = picture.size() - std::size_t{16} * 8 * 3;
     CHECK(static_cast<unsigned char>(picture[first]) > 150);  // red at the left edge
@@ -81,7 +79,7 @@ TEST_CASE(
     const CommandResult result = render("", d, hidden);
     expect(result, 1, {"Embree follows rays within transparent objects", "Debian's package libembree"});
     CHECK_FALSE(fs::exists(d / "out.ppm"));
-    CHECK(run_candela({"render", "scene.toml", "--reflection", "phong", "-o", "out.ppm"},
-                      {.input = "", .environment = hidden, .directory = d})
-              .exit_code == 0);
+    expect(run_candela({"render", "scene.toml", "--reflection", "phong", "-o", "out.ppm"},
+                       {.input = "", .environment = hidden, .directory = d}),
+           0);
 }

@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using Catch::Approx;
 using nlohmann::json;
 
 namespace {
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// Phong's model as RE and SPEC §4 write it: R = 2 N (N.L) - L, I_d = kd C_o max(N.L, 0), I_s = ks max(R.V,
 /// 0)^n.
@@ -28,13 +29,7 @@ constexpr const char* k_phong =
     "if (m.shininess == 0.0) highlight = 1.0;\n"
     "return Reflected(m.kd * s.color * max(dot(N, to_light), 0.0), m.ks * lit * highlight);";
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
-
-json lines_of(const std::string& text) {
+json json_lines_of(const std::string& text) {
     json lines = json::array();
     for (std::size_t begin = 0;;) {
         const std::size_t end = text.find('\n', begin);
@@ -47,7 +42,7 @@ json lines_of(const std::string& text) {
 fs::path answer(const fs::path& file, const std::string& body, const std::string& model = "reflection/phong",
                 const std::string& function = "phong_reflect") {
     const json content = {
-        {"candela_exercise", 1}, {"model", model}, {"function", function}, {"answer", lines_of(body)}};
+        {"candela_exercise", 1}, {"model", model}, {"function", function}, {"answer", json_lines_of(body)}};
     return write_file(file, content.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
@@ -134,19 +129,16 @@ TEST_CASE("exercise: ambient light has a function and a term of its own") {
 TEST_CASE(
     "exercise: a folder is graded file by file, as a table, and errors in one answer do not affect the "
     "others") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     answer(folder / "a.answer", k_phong);
     answer(folder / "b.answer", replaced(k_phong, "2.0 * N", "N"));
     answer(folder / "c.answer", replaced(k_phong, "vec3 N = s.normal;", "vec3 N = s.normal"));
-    write_file(folder / "d.answer", "not JSON");
-    write_file(folder / "notes.txt", "not an answer, and not asked for");
-    const CommandResult result = run_candela({"exercise", "grade", folder.string()});
-    INFO(result.out);
-    INFO(result.err);
-    CHECK(result.exit_code == 4);
-    CHECK(holds(result.out, "a.answer  reflection/phong phong_reflect  matches\n"));
-    CHECK(holds(result.out, "b.answer  reflection/phong phong_reflect  differs\n"));
-    CHECK(holds(result.out, "specular: "));
+    folder.write("d.answer", "not JSON");
+    folder.write("notes.txt", "not an answer, and not asked for");
+    const CommandResult result =
+        expect_out(run_candela({"exercise", "grade", folder.path().string()}), 4,
+                   {"a.answer  reflection/phong phong_reflect  matches\n",
+                    "b.answer  reflection/phong phong_reflect  differs\n", "specular: "});
     // The error is where the text is missing, at the end of line 1.
     CHECK(
         holds(result.out, "does not compile: line 1, column 18: expected an operator or ';' before 'vec3'"));
@@ -159,7 +151,7 @@ TEST_CASE("exercise: text outside the kernel language is refused at its line, be
         const char* text;
         const char* message;
     };
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     const std::vector<Hostile> texts = {
         {"vec3 *p = (vec3 * const) 16; vec3 x = *p;", "neither pointers nor references"},
         {"float address = float((uint64_t) &s);", "neither pointers nor references"},
@@ -185,7 +177,7 @@ TEST_CASE("exercise: text outside the kernel language is refused at its line, be
                                        ";\nreturn Reflected(s.color, s.color);");
     answer(folder / "long.answer", std::string(50000, ' ') + k_phong);
     answer(folder / "nothing.answer", "");
-    const Graded result = graded({folder.string()});
+    const Graded result = graded({folder.path().string()});
     CHECK(result.exit_code == 4);
     REQUIRE(result.grades.size() == texts.size() + 3);
     for (std::size_t i = 0; i < result.grades.size(); ++i) {
@@ -199,13 +191,13 @@ TEST_CASE("exercise: text outside the kernel language is refused at its line, be
 }
 
 TEST_CASE("exercise: an answer that calls itself, or takes too long, does not run forever") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     answer(folder / "recursion.answer", "return phong_reflect(m, s, to_light);");
     answer(folder / "steps.answer",
            "float x = 1.0;\nfor (int i = 0; i < 300; ++i) for (int j = 0; j < 300; ++j) x += sin(x) * cos(x) "
            "+ pow(x, 0.1);\n"
            "return Reflected(s.color * x, s.color);");
-    const json grades = graded({folder.string()}).grades;
+    const json grades = graded({folder.path().string()}).grades;
     CHECK(holds(grades.at(0)["message"], "calls itself"));
     CHECK(holds(grades.at(1)["message"], "more than 1000000 steps"));
     CHECK(grades.at(1)["line"] == 2);
@@ -219,13 +211,13 @@ TEST_CASE("exercise: a name that is a C++ macro is an error, and is not expanded
 }
 
 TEST_CASE("exercise: unassigned variables are zero, and no index or integer overflow escapes its bounds") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     answer(
         folder / "a.answer",
         "Reflected r;\nr.diffuse.x = 0.0;\nint zero = int(m.shininess * 0.0);\nint a = 1 / zero + 1 % zero;\n"
         "int big = 2147483647;\nbig += 1 - zero;\na += int(1.0e30 * m.shininess) + big / (zero - 1);\n"
         "r.specular = vec3(0.0 * float(a));\nreturn r;");
-    const json grade = graded({folder.string()}).grades.at(0);
+    const json grade = graded({folder.path().string()}).grades.at(0);
     INFO(grade.dump());
     // The formula is wrong, but its results are numbers, all zero.
     CHECK(grade["result"] == "differs");
@@ -261,17 +253,17 @@ TEST_CASE("exercise: the shipped models' own formulas are right answers", "[prog
 }
 
 TEST_CASE("exercise: files that are not answers get a reason, and do not prevent grading the others") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     answer(folder / "a.answer", k_phong);
     answer(folder / "b.answer", k_phong, "reflection/phnog");
     answer(folder / "c.answer", k_phong, "reflection/phong", "phong_reflekt");
     answer(folder / "d.answer", k_phong, "target/cpp");
     answer(folder / "e.answer", k_phong, "reflection/../../../etc/passwd");
-    write_file(folder / "f.answer", R"({"candela_exercise": 2})");
-    write_file(folder / "g.answer",
-               R"({"candela_exercise": 1, "model": "phong", "function": "reflect", "answer": ["a\nb"]})");
-    write_file(folder / "h.answer", std::string(200000, '['));
-    const json grades = graded({folder.string()}).grades;
+    folder.write("f.answer", R"({"candela_exercise": 2})");
+    folder.write("g.answer",
+                 R"({"candela_exercise": 1, "model": "phong", "function": "reflect", "answer": ["a\nb"]})");
+    folder.write("h.answer", std::string(200000, '['));
+    const json grades = graded({folder.path().string()}).grades;
     REQUIRE(grades.size() == 8);
     CHECK(grades[0]["result"] == "matches");
     const std::vector<const char*> messages = {
@@ -349,10 +341,8 @@ TEST_CASE("exercise: the process that runs an answer has neither the plugin nor 
 
 TEST_CASE("exercise: the page contains results of the model, but not the formula") {
     const fs::path page = scratch_directory() / "phong.html";
-    const CommandResult result =
-        run_candela({"exercise", "new", "reflection/phong", "--blank", "reflect", "-o", page.string()});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(
+        run_candela({"exercise", "new", "reflection/phong", "--blank", "reflect", "-o", page.string()}));
     const std::string text = read_file(page);
     // From phong.kernel, and from the output of candela describe.
     for (const char* const part :
@@ -366,12 +356,11 @@ TEST_CASE("exercise: the page contains results of the model, but not the formula
 }
 
 TEST_CASE("exercise: every model whose kernel reads no table has exercises") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     for (const char* const model :
          {"lambert", "half-lambert", "oren-nayar", "minnaert", "phong", "blinn-phong", "cook-torrance", "ggx",
           "ward", "ashikhmin-shirley", "toon", "gooch"}) {
-        const CommandResult result = run_candela({"exercise", "new", model, "--blank", "reflect"},
-                                                 {.input = {}, .environment = {}, .directory = folder});
+        const CommandResult result = folder.run_words({"exercise", "new", model, "--blank", "reflect"});
         INFO(model << ": " << result.err);
         CHECK(result.exit_code == 0);
         CHECK(fs::exists(folder / (std::string(model) + "-reflect.html")));
@@ -394,24 +383,18 @@ TEST_CASE("exercise: an impossible exercise is an error that lists the possible 
          }) {
         std::vector<std::string> words = wrong.words;
         words.insert(words.begin(), "exercise");
-        const fs::path folder = scratch_directory();
-        const CommandResult result =
-            run_candela(words, {.input = {}, .environment = {}, .directory = folder});
-        INFO(result.err);
-        CHECK(result.exit_code == 2);
-        CHECK(holds(result.err, wrong.message));
+        const Folder folder;
+        expect(folder.run_words(words), 2, {wrong.message});
         CHECK(fs::is_empty(folder));
     }
-    CHECK(run_candela({"exercise", "grade", "/nonexistent"}).exit_code == 1);
-    CHECK(run_candela({"exercise", "new", "phnog", "--blank", "reflect"}).exit_code == 1);
+    expect(run_candela({"exercise", "grade", "/nonexistent"}), 1);
+    expect(run_candela({"exercise", "new", "phnog", "--blank", "reflect"}), 1);
 }
 
 TEST_CASE("exercise: an error by a factor of thousands is reported as such, not in per cent") {
     const fs::path file = answer(scratch_directory() / "one.answer",
                                  replaced(k_phong, "m.kd * s.color", "70000.0 * m.kd * s.color"));
-    const CommandResult result = run_candela({"exercise", "grade", file.string()});
-    INFO(result.out);
-    CHECK(result.exit_code == 4);
-    CHECK(result.out.find(", by more than 1000 times the largest value") != std::string::npos);
-    CHECK(result.out.find("000 %") == std::string::npos);
+    const CommandResult result = expect_out(run_candela({"exercise", "grade", file.string()}), 4,
+                                            {", by more than 1000 times the largest value"});
+    CHECK_FALSE(holds(result.out, "000 %"));
 }

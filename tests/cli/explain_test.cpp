@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -36,9 +38,7 @@ Explained explained(const std::string& scene, const std::string& mesh, const std
     write_file(folder / "face.obj", mesh);
     const std::string file = write_file(folder / "scene.toml", scene).string();
     const std::vector<std::string> arguments{"explain", file, "--pixel", pixel, "--json", "--quiet"};
-    const CommandResult result = run_candela(arguments);
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(run_candela(arguments));
     return {json::parse(result.out)};
 }
 
@@ -175,28 +175,22 @@ TEST_CASE("a step is a statement of the kernel, with its file, line and text") {
 }
 
 TEST_CASE("an explanation as text has the same numbers and ends with the byte") {
-    const CommandResult result = run_candela({"explain", "--pixel", "256,320"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(run_candela({"explain", "--pixel", "256,320"}));
     INFO(result.out);
-    const auto holds = [&](const std::string& part) { return result.out.find(part) != std::string::npos; };
     CHECK(result.out.starts_with("pixel 256,320 of 512 x 512: "));
-    CHECK(holds("phong.kernel:"));
-    CHECK(holds("float n_dot_l = dot(s.normal, to_light);"));
-    CHECK(holds("phong shading: light is evaluated once per pixel"));
+    CHECK(holds(result.out, "phong.kernel:"));
+    CHECK(holds(result.out, "float n_dot_l = dot(s.normal, to_light);"));
+    CHECK(holds(result.out, "phong shading: light is evaluated once per pixel"));
     const json same = json::parse(run_candela({"explain", "--pixel", "256,320", "--json"}).out);
-    CHECK(holds("byte " + same.at("bytes").at(0).dump()));
+    CHECK(holds(result.out, "byte " + same.at("bytes").at(0).dump()));
 }
 
 TEST_CASE("without a compiler, explain says so and reports the renderer's data") {
-    const CommandResult result =
+    const CommandResult result = expect_out(
         run_candela({"explain", "--pixel", "256,320"},
-                    {.input = "", .environment = {{"PATH", "/nowhere"}, {"CXX", ""}}, .directory = {}});
-    CHECK(result.exit_code == 0);
-    CHECK(result.out.find("the kernels' steps are left out: no C++ compiler is installed") !=
-          std::string::npos);
-    CHECK(result.out.find("N.L = ") != std::string::npos);
-    CHECK(result.out.find("n_dot_l") == std::string::npos);
+                    {.input = "", .environment = {{"PATH", "/nowhere"}, {"CXX", ""}}, .directory = {}}),
+        0, {"the kernels' steps are left out: no C++ compiler is installed", "N.L = "});
+    CHECK_FALSE(holds(result.out, "n_dot_l"));
 }
 
 TEST_CASE("a pixel without an object is explained by the background") {
@@ -210,7 +204,7 @@ TEST_CASE("a pixel without an object is explained by the background") {
 }
 
 TEST_CASE("a pixel outside the picture is a usage error that gives the valid range") {
-    CHECK(run_candela({"explain"}).exit_code == 2);
+    expect(run_candela({"explain"}), 2);
     for (const char* const pixel :
          {"512,0", "0,512", "-1,0", "3", "a,b", "1,2,3", "", "1;2", "99999999999,0"}) {
         INFO(pixel);
@@ -218,7 +212,7 @@ TEST_CASE("a pixel outside the picture is a usage error that gives the valid ran
         CHECK(result.exit_code == 2);
         CHECK(result.out.empty());
     }
-    CHECK(run_candela({"explain", "--pixel", "512,0"}).err.find("0,0 to 511,511") != std::string::npos);
+    CHECK(holds(run_candela({"explain", "--pixel", "512,0"}).err, "0,0 to 511,511"));
 }
 
 TEST_CASE("kept kernels explain other pixels without a compiler, with the same results") {
@@ -229,9 +223,7 @@ TEST_CASE("kept kernels explain other pixels without a compiler, with the same r
         if (is_kept) words.insert(words.end(), {"--keep", kept.string()});
         CommandSetup setup;
         if (!has_compiler) setup.environment = {{"PATH", "/nowhere"}, {"CXX", ""}};
-        const CommandResult result = run_candela(words, setup);
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
+        const CommandResult result = succeeded(run_candela(words, setup));
         return json::parse(result.out);
     };
     const json alone = explained_at("256,300", false, true);
@@ -253,10 +245,8 @@ TEST_CASE("kept kernels explain other pixels without a compiler, with the same r
     for (const fs::directory_entry& each : fs::directory_iterator(kept))
         write_file(each.path() / "kernels.cpp", "another");
     CHECK(explained_at("256,300", true, false).at("kernel_difference").is_null());
-    const CommandResult nowhere =
-        run_candela({"explain", "--pixel=1,1", "--keep", (kept / "nowhere").string()});
-    CHECK(nowhere.exit_code == 1);
-    CHECK(nowhere.err.find("is not a folder") != std::string::npos);
+    expect(run_candela({"explain", "--pixel=1,1", "--keep", (kept / "nowhere").string()}), 1,
+           {"is not a folder"});
 }
 
 TEST_CASE(
@@ -277,15 +267,14 @@ TEST_CASE(
     };
     CHECK(next() == alone("256,300"));
     CHECK(next() == alone("9,9"));
-    CHECK(next().at("error").get<std::string>().find("'nothing'") != std::string::npos);
-    CHECK(next().at("error").get<std::string>().find("'no UTF-8: \xef\xbf\xbd'") != std::string::npos);
-    CHECK(next().at("error").get<std::string>().find("0,0 to 511,511") != std::string::npos);
+    CHECK(holds(next().at("error").get<std::string>(), "'nothing'"));
+    CHECK(holds(next().at("error").get<std::string>(), "'no UTF-8: \xef\xbf\xbd'"));
+    CHECK(holds(next().at("error").get<std::string>(), "0,0 to 511,511"));
     CHECK(next() == alone("250,290"));
     CHECK(lines.peek() == std::istringstream::traits_type::eof());
 
     setup.input = "nothing\n256,300\n";
-    const CommandResult for_a_person = run_candela({"explain", "--pixel", "-", "--quiet"}, setup);
-    CHECK(for_a_person.exit_code == 2);
-    CHECK(for_a_person.err.find("'nothing'") != std::string::npos);
+    const CommandResult for_a_person =
+        expect(run_candela({"explain", "--pixel", "-", "--quiet"}, setup), 2, {"'nothing'"});
     CHECK(for_a_person.out == run_candela({"explain", "--pixel", "256,300", "--quiet"}).out);
 }

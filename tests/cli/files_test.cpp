@@ -9,6 +9,7 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -35,14 +36,11 @@ TEST_CASE("several files form one scene, in any order, on the command line and b
     write_file(d / "a.toml", std::string("version = 1\n") + k_observer + k_models);
     write_file(d / "b.toml", std::string("version = 1\n") + k_light);
     write_file(d / "c.toml", std::string(k_cube));
-    CHECK(check({"a.toml", "b.toml", "c.toml"}, d).out.find("1 (1 point)") != std::string::npos);
+    CHECK(holds(check({"a.toml", "b.toml", "c.toml"}, d).out, "1 (1 point)"));
     CHECK(check({"c.toml", "b.toml", "a.toml"}, d).exit_code == 0);
     write_file(d / "deep/more.toml", "include = [\"../c.toml\"]\n" + std::string(k_light));
     write_file(d / "all.toml", "version = 1\ninclude = [\"a.toml\", \"deep/more.toml\"]\n");
-    const CommandResult all = check({"all.toml"}, d);
-    INFO(all.err);
-    CHECK(all.exit_code == 0);
-    CHECK(all.out.find("'box'") != std::string::npos);
+    expect_out(check({"all.toml"}, d), 0, {"'box'"});
 }
 
 TEST_CASE("a repeated unique table is an error that names both places") {
@@ -158,8 +156,7 @@ TEST_CASE("R11: mesh files that are broken, empty or without triangles each have
         write_file(d / "scene.toml",
                    k_scene + "[[object]]\ntype = \"mesh\"\nfile = \"" + name + "\"\nposition = [2, 0, 0]\n");
         const CommandResult result = check({"scene.toml"}, d);
-        CHECK(result.err.find("scene.toml:15:1: error: object number 1: plugin shape/mesh: '") !=
-              std::string::npos);
+        CHECK(holds(result.err, "scene.toml:15:1: error: object number 1: plugin shape/mesh: '"));
         return result;
     };
     expect(mesh("empty.obj", ""), 1, {"empty.obj"});

@@ -8,28 +8,23 @@
 #include "support/box_scene.h"
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-fs::path with_scene(const std::string& more = "") {
-    const fs::path directory = scratch_directory();
-    write_file(directory / "scene.toml", box_scene(64, 48) + more);
+Folder with_scene(const std::string& more = "") {
+    const Folder directory;
+    directory.write("scene.toml", box_scene(64, 48) + more);
     return directory;
 }
 
-CommandResult candela(const fs::path& directory, const std::vector<std::string>& words) {
-    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
-}
-
 /// The size of a picture that render writes with the arguments `more`.
-std::uintmax_t rendered_size(const fs::path& directory, const std::string& name,
+std::uintmax_t rendered_size(const Folder& directory, const std::string& name,
                              std::vector<std::string> more = {}) {
     more.insert(more.begin(), {"render", "scene.toml", "-o", name});
-    const CommandResult result = candela(directory, more);
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(directory.run_words(more));
     return fs::file_size(directory / name);
 }
 
@@ -39,7 +34,7 @@ constexpr const char* k_two_frames = "[animation]\nframes = 2\nfps = 1\n[animati
 
 TEST_CASE(
     "format: --format-set quality: the lower, the smaller the JPEG, and the default is that of describe") {
-    const fs::path d = with_scene();
+    const Folder d = with_scene();
     const auto at = [&](const std::string& quality) {
         return rendered_size(d, quality + ".jpg", {"--format-set", "quality=" + quality});
     };
@@ -49,23 +44,22 @@ TEST_CASE(
 }
 
 TEST_CASE("format: --format-set compression=0: a PNG as large as its pixels, with the same pixels") {
-    const fs::path d = with_scene();
+    const Folder d = with_scene();
     const std::uintmax_t stored = rendered_size(d, "stored.png", {"--format-set", "compression=0"});
     CHECK(stored > 3 * 64 * 48);
     CHECK(rendered_size(d, "usual.png") < stored);
-    CHECK(candela(d, {"diff", "stored.png", "usual.png"}).exit_code == 0);
+    expect(d.run("diff stored.png usual.png"), 0);
     // The last of two values counts, also on standard output.
     CHECK(rendered_size(d, "last.png", {"--format-set", "compression=9", "--format-set", "compression=0"}) ==
           stored);
-    CHECK(candela(d, {"render", "scene.toml", "-o", "-", "--format-set", "compression=0"}).out.size() ==
-          stored);
+    CHECK(d.run("render scene.toml -o - --format-set compression=0").out.size() == stored);
 }
 
 TEST_CASE("format: a wrong --format-set is an error, and no picture is written") {
-    const fs::path d = with_scene();
+    const Folder d = with_scene();
     const auto refused = [&](const std::string& setting, const std::vector<std::string>& parts) {
-        expect(candela(d, {"render", "scene.toml", "-o", "a.jpg", "--format-set", setting}), 2, parts);
-        CHECK_FALSE(fs::exists(d / "a.jpg"));
+        expect(d.run_words({"render", "scene.toml", "-o", "a.jpg", "--format-set", setting}), 2, parts);
+        CHECK_FALSE(d.has("a.jpg"));
     };
     refused("quality=300", {"--format-set quality", "300", "1 to 100"});
     refused("quality=good", {"--format-set quality", "good", "integer"});
@@ -77,9 +71,9 @@ TEST_CASE("format: a wrong --format-set is an error, and no picture is written")
 }
 
 TEST_CASE("frames of another --format-set are rendered again, and those of the same are kept") {
-    const fs::path d = with_scene(k_two_frames);
+    const Folder d = with_scene(k_two_frames);
     const auto animated = [&](const std::string& quality) {
-        return candela(d, {"animate", "scene.toml", "-o", "f%d.jpg", "--format-set", "quality=" + quality});
+        return d.run_words({"animate", "scene.toml", "-o", "f%d.jpg", "--format-set", "quality=" + quality});
     };
     REQUIRE(animated("90").exit_code == 0);
     const std::uintmax_t fine = fs::file_size(d / "f0.jpg");
@@ -91,13 +85,11 @@ TEST_CASE("frames of another --format-set are rendered again, and those of the s
 }
 
 TEST_CASE("tasks follow --format-set, for frames and assembled pictures") {
-    const fs::path d = with_scene(k_two_frames);
+    const Folder d = with_scene(k_two_frames);
     const std::uintmax_t stored = rendered_size(d, "whole.png", {"--format-set", "compression=0"});
     const auto submitted = [&](std::vector<std::string> more) {
         more.insert(more.begin(), {"submit", "scene.toml", "--format-set", "compression=0"});
-        const CommandResult result = candela(d, more);
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
+        succeeded(d.run_words(more));
     };
     submitted({"-o", "frames/%d.png"});
     CHECK(fs::file_size(d / "frames/0.png") == stored);
@@ -106,13 +98,10 @@ TEST_CASE("tasks follow --format-set, for frames and assembled pictures") {
 }
 
 TEST_CASE("a sheet of pictures follows --format-set") {
-    const fs::path d = with_scene();
+    const Folder d = with_scene();
     const auto size = [&](const std::string& compression) {
-        const CommandResult result =
-            candela(d, {"compare", "scene.toml", "--reflection", "phong,lambert", "-o", "sheet.png",
-                        "--format-set", "compression=" + compression});
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
+        succeeded(d.run_words({"compare", "scene.toml", "--reflection", "phong,lambert", "-o", "sheet.png",
+                               "--format-set", "compression=" + compression}));
         return fs::file_size(d / "sheet.png");
     };
     CHECK(size("9") < size("0"));

@@ -9,12 +9,14 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-CommandResult limited(const fs::path& directory, const std::vector<std::string>& words, rlim_t most) {
+CommandResult limited(const Folder& directory, const std::vector<std::string>& words, rlim_t most) {
     CommandSetup setup{.input = "", .environment = {}, .directory = directory};
     setup.prepare = [most] {
         const rlimit limit = {most, most};
@@ -23,30 +25,26 @@ CommandResult limited(const fs::path& directory, const std::vector<std::string>&
     return run_candela(words, setup);
 }
 
-CommandResult in(const fs::path& directory, const std::vector<std::string>& words) {
-    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
-}
-
 /// A file that does not fit leaves the folder unchanged; one that fits has the same bytes as without a limit.
 void check_limits(const std::string& file, std::vector<std::string> words) {
-    const fs::path d = scratch_directory();
+    const Folder d;
     words.insert(words.end(), {"-o", file});
-    const CommandResult free = in(d, words);
+    const CommandResult free = d.run_words(words);
     INFO(file << ": " << free.err);
     REQUIRE(free.exit_code == 0);
-    const std::string whole = read_file(d / file);
+    const std::string whole = d.read(file);
     const auto size = static_cast<rlim_t>(whole.size());
     for (const rlim_t most : {size - 1, rlim_t{48}}) {
-        write_file(d / file, "old");
+        d.write(file, "old");
         const CommandResult result = limited(d, words, most);
         INFO(most << " of " << size << " bytes: " << result.err);
         CHECK(result.exit_code == 1);
-        CHECK(result.err.find("error") != std::string::npos);
-        CHECK(read_file(d / file) == "old");
+        CHECK(holds(result.err, "error"));
+        CHECK(d.read(file) == "old");
         CHECK(std::distance(fs::directory_iterator(d), {}) == 1);
     }
     CHECK(limited(d, words, size + 2).exit_code == 0);
-    CHECK(read_file(d / file) == whole);
+    CHECK(d.read(file) == whole);
 }
 
 const std::vector<std::string> k_formats{"png", "jpg", "jpeg", "tif", "tiff", "hdr",
@@ -68,40 +66,39 @@ TEST_CASE("so is a picture in layers, and one in tiles") {
 TEST_CASE("so are a sheet, a heat-map and a diagram") {
     check_limits("a.png", {"compare", "--width", "60", "--height", "40", "--reflection", "phong,lambert"});
     check_limits("a.svg", {"plot", "reflection/phong"});
-    const fs::path d = scratch_directory();
-    REQUIRE(in(d, {"render", "-o", "a.png", "--width", "64", "--height", "64"}).exit_code == 0);
-    REQUIRE(in(d, {"render", "-o", "b.png", "--width", "64", "--height", "64", "--reflection", "lambert"})
-                .exit_code == 0);
+    const Folder d;
+    succeeded(d.run("render -o a.png --width 64 --height 64"));
+    succeeded(d.run("render -o b.png --width 64 --height 64 --reflection lambert"));
     CHECK(limited(d, {"diff", "a.png", "b.png", "-o", "heat.ppm"}, 4000).exit_code == 1);
-    CHECK_FALSE(fs::exists(d / "heat.ppm"));
+    CHECK_FALSE(d.has("heat.ppm"));
 }
 
 TEST_CASE("a part of a picture that does not fit is an error, and is rendered again") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     const std::vector<std::string> part{"render", "-o", "a.png", "--part", "1/2"};
     expect(limited(d, part, 4000), 1, {"File too large"});
-    CHECK_FALSE(fs::exists(d / "a.png.parts/1-of-2.pixels"));
-    CHECK(in(d, part).exit_code == 0);
-    CHECK(in(d, {"render", "-o", "a.png", "--part", "2/2"}).exit_code == 0);
+    CHECK_FALSE(d.has("a.png.parts/1-of-2.pixels"));
+    expect(d.run_words(part), 0);
+    expect(d.run("render -o a.png --part 2/2"), 0);
     expect(limited(d, {"assemble", "a.png"}, 500), 1, {"File too large"});
-    CHECK_FALSE(fs::exists(d / "a.png"));
-    CHECK(in(d, {"assemble", "a.png"}).exit_code == 0);
+    CHECK_FALSE(d.has("a.png"));
+    expect(d.run("assemble a.png"), 0);
 }
 
 TEST_CASE("a full disk is an error for every format") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     for (const std::string& format : k_formats) {
         fs::create_symlink("/dev/full", d / ("full." + format));
         const CommandResult result =
-            in(d, {"render", "-o", "full." + format, "--width", "90", "--height", "61"});
+            d.run_words({"render", "-o", "full." + format, "--width", "90", "--height", "61"});
         INFO(format << ": " << result.err);
         CHECK(result.exit_code == 1);
-        CHECK(result.err.find("No space left on device") != std::string::npos);
+        CHECK(holds(result.err, "No space left on device"));
     }
 }
 
 TEST_CASE("a limit on threads gives a message or a picture, never a program that waits forever") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     fs::permissions(d, fs::perms::all);
     const auto with = [&](const std::vector<std::string>& words, rlim_t most) {
         // LeakSanitizer starts a thread in the end, and calls it an error if it cannot.
@@ -122,7 +119,7 @@ TEST_CASE("a limit on threads gives a message or a picture, never a program that
                 with({"render", "-o", name, "--width", "64", "--height", "64"}, most);
             INFO(most << ' ' << name << ": " << result.err);
             CHECK((result.exit_code == 0 || result.exit_code == 1));
-            CHECK(fs::exists(d / name) == (result.exit_code == 0));
+            CHECK(d.has(name) == (result.exit_code == 0));
         }
     }
 }

@@ -10,6 +10,8 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -26,11 +28,11 @@ std::string times(std::size_t count, const std::string& part) {
 }
 
 CommandResult check(const std::string& text, const std::vector<std::string>& more = {}) {
-    const fs::path directory = scratch_directory();
-    write_file(directory / "a.toml", text);
+    const Folder directory;
+    directory.write("a.toml", text);
     std::vector<std::string> words{"check", "a.toml"};
     words.insert(words.end(), more.begin(), more.end());
-    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
+    return directory.run_words(words);
 }
 
 /// A limit of 4 GB of address space; not for sanitizers, which reserve terabytes.
@@ -67,9 +69,7 @@ TEST_CASE("brackets and points in strings and comments do not nest, nor do many 
     for (const std::string& quoted : {"\"" + brackets + "\\\"" + brackets + "\"", "'" + brackets + "\\'",
                                       "'''" + brackets + "\n''" + brackets + "'''''",
                                       "\"\"\"" + brackets + "\n\\\"\"\"" + brackets + "\"\"\"\""}) {
-        const CommandResult result = check(k_start + texts + quoted + " # " + brackets + "\n");
-        INFO(result.err);
-        CHECK(result.exit_code == 0);
+        expect(check(k_start + texts + quoted + " # " + brackets + "\n"), 0);
     }
     // The error is the earlier unclosed bracket, not the many that follow.
     expect(check(times(40, "[a\n")), 3, {"a.toml:1:3: error: the header's closing ] is missing"});
@@ -118,13 +118,13 @@ TEST_CASE("input quoted in a message is not a command to the terminal") {
               "\"\\u001b[A\\nx\" = 1\n");
     CHECK(result.exit_code == 3);
     for (const char* const command : {"\x1b", "\x07", "\xc2\x9b"}) {
-        CHECK(result.err.find(command) == std::string::npos);
+        CHECK_FALSE(holds(result.err, command));
     }
-    CHECK(result.err.find("no light plugin is called '\\u{1b}[31m\\u{7}\\u{9b}'") != std::string::npos);
+    CHECK(holds(result.err, "no light plugin is called '\\u{1b}[31m\\u{7}\\u{9b}'"));
 }
 
 TEST_CASE("endless or countless includes are errors") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     for (int i = 0; i < 40; ++i) {
         write_file(d / ("c" + std::to_string(i) + ".toml"),
                    "include = [\"c" + std::to_string(i + 1) + ".toml\"]\n");
@@ -137,9 +137,9 @@ TEST_CASE("endless or countless includes are errors") {
         write_file(d / ("w" + std::to_string(i) + ".toml"), "[[light]]\ntype = \"ambient\"\n");
         names += "\"w" + std::to_string(i) + ".toml\", ";
     }
-    write_file(d / "wide.toml", "include = [" + names + "]\n" + k_start);
+    d.write("wide.toml", "include = [" + names + "]\n" + k_start);
     expect(run_candela({"check", "wide.toml"}, there), 3, {"the scene consists of more than 1000 files"});
-    write_file(d / "same.toml", "include = [" + times(5000, "\"w0.toml\", ") + "]\n" + k_start);
+    d.write("same.toml", "include = [" + times(5000, "\"w0.toml\", ") + "]\n" + k_start);
     expect(run_candela({"check", "same.toml"}, there), 3, {"same.toml:1:23: error: 'w0.toml' is read twice"});
 }
 
@@ -151,22 +151,21 @@ TEST_CASE("a file of unknown size is read no further than the longest scene") {
 
 TEST_CASE("a picture, and a shape, that do not fit into memory are errors that say how much they need") {
     if (k_has_shadow_memory) SKIP("sanitizers need more address space");
-    const fs::path directory = scratch_directory();
+    const Folder directory;
     // A format that is not written by rows.
     const std::string output = " -o " + (directory / "a.pfm").string();
     expect(in_four_gigabytes("render --width 65536 --height 65536" + output), 1,
            {"a picture of 65536 x 65536 pixels needs 51.5 GB of memory; ", " are available"});
-    const fs::path scene =
-        write_file(directory / "scene.toml",
-                   k_start + "[[object]]\ntype = \"sphere\"\nsegments = 8192\nposition = [2, 0, 0]\n");
+    const fs::path scene = directory.write(
+        "scene.toml", k_start + "[[object]]\ntype = \"sphere\"\nsegments = 8192\nposition = [2, 0, 0]\n");
     expect(in_four_gigabytes("render " + scene.string() + output), 1,
            {"scene.toml:9:1: error: object number 0: a shape of 67", " triangles needs ", " GB of memory; "});
-    CHECK_FALSE(fs::exists(directory / "a.pfm"));
+    CHECK_FALSE(directory.has("a.pfm"));
 }
 
 TEST_CASE("a library that does not fit into the address space causes a message") {
     if (k_has_shadow_memory) SKIP("sanitizers need more address space");
-    const fs::path directory = scratch_directory();
+    const Folder directory;
     const auto rendered = [&](rlim_t megabytes, const char* image) {
         CommandSetup setup;
         setup.prepare = [megabytes] {
@@ -182,15 +181,15 @@ TEST_CASE("a library that does not fit into the address space causes a message")
         INFO(megabytes << " MB\n" << result.err);
         if (result.exit_code == 0) continue;
         CHECK(result.exit_code == 1);
-        CHECK(result.err.find("not enough memory to load it; ulimit -v") != std::string::npos);
-        CHECK(result.err.find("build it again") == std::string::npos);
+        CHECK(holds(result.err, "not enough memory to load it; ulimit -v"));
+        CHECK_FALSE(holds(result.err, "build it again"));
     }
 }
 
 TEST_CASE("invalid manifests are refused, and the other plugins still work") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     const auto plugin = [&](const std::string& name) {
-        write_file(d / ("light-" + name + ".so"), "no library");
+        d.write(("light-" + name + ".so"), "no library");
         return d / ("light-" + name + ".json");
     };
     write_file(plugin("deep"), times(1'000'000, "["));
@@ -198,14 +197,13 @@ TEST_CASE("invalid manifests are refused, and the other plugins still work") {
     write_file(plugin("large"), std::string(2'000'000, ' '));
     write_file(plugin("latin"), "{\"abi\": \"\xe9\"}");
     REQUIRE(::mkfifo(plugin("pipe").c_str(), 0600) == 0);
-    const CommandResult result = run_candela({"list", "light", "--plugin-dir", d.string()});
-    CHECK(result.exit_code == 0);
-    CHECK(result.out.find("point") != std::string::npos);
+    const CommandResult result =
+        expect_out(run_candela({"list", "light", "--plugin-dir", d.path().string()}), 0, {"point"});
     for (const char* const name : {"deep", "objects", "latin"}) {
         INFO(name);
-        CHECK(result.err.find(std::string("its manifest light-") + name +
-                              ".json cannot be used: it is not a manifest") != std::string::npos);
+        CHECK(holds(result.err, std::string("its manifest light-") + name +
+                                    ".json cannot be used: it is not a manifest"));
     }
-    CHECK(result.err.find("light-large.json is larger than 1048576 bytes") != std::string::npos);
-    CHECK(result.err.find("its manifest light-pipe.json is missing") != std::string::npos);
+    CHECK(holds(result.err, "light-large.json is larger than 1048576 bytes"));
+    CHECK(holds(result.err, "its manifest light-pipe.json is missing"));
 }

@@ -11,19 +11,16 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
 #include "support/gltf_file.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
 using Json = nlohmann::json;
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-CommandResult candela(const fs::path& folder, const std::vector<std::string>& words) {
-    return run_candela(words, {.input = "", .environment = {}, .directory = folder});
-}
 
 /// A glTF file: boxes of 1 x 1 x 1 m around the origins of their nodes, each with a material of its own.
 class File : public GltfFile {
@@ -90,23 +87,18 @@ std::vector<float> turns_about_y(const std::vector<double>& degrees) {
     return result;
 }
 
-CommandResult import(const fs::path& folder, const std::string& name) {
-    CommandResult result = candela(folder, {"import", name + ".gltf", "-o", name + ".toml"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
-    const CommandResult check = candela(folder, {"check", name + ".toml"});
-    INFO(check.err);
-    CHECK(check.exit_code == 0);
+CommandResult import(const Folder& folder, const std::string& name) {
+    const CommandResult result =
+        succeeded(folder.run_words({"import", name + ".gltf", "-o", name + ".toml"}));
+    expect(folder.run_words({"check", name + ".toml"}), 0);
     return result;
 }
 
 /// The three numbers after `key`, after `section`, in the output of `check --print` for a frame.
-std::array<double, 3> vector_in(const fs::path& folder, const std::string& scene, int frame,
+std::array<double, 3> vector_in(const Folder& folder, const std::string& scene, int frame,
                                 const std::string& section, const std::string& key) {
     const CommandResult printed =
-        candela(folder, {"check", scene + ".toml", "--print", "--frame", std::to_string(frame)});
-    INFO(printed.err);
-    REQUIRE(printed.exit_code == 0);
+        succeeded(folder.run_words({"check", scene + ".toml", "--print", "--frame", std::to_string(frame)}));
     INFO(printed.out);
     const std::size_t start = printed.out.find(section);
     REQUIRE(start != std::string::npos);
@@ -142,7 +134,7 @@ std::size_t differing(const std::string& a, const std::string& b) {
 }  // namespace
 
 TEST_CASE("a moving node becomes tracks of its object, relative to its rest position") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     File file;
     file.box("still", {{"translation", {-3, 0, 0}}});
     const std::size_t box = file.box("moves", {{"translation", {1, 0, 0}}});
@@ -150,7 +142,7 @@ TEST_CASE("a moving node becomes tracks of its object, relative to its rest posi
     file.write(folder, "a");
     const CommandResult imported = import(folder, "a");
     CHECK(holds(imported.err, "its animation is imported for 1 object\n"));
-    const std::string scene = read_file(folder / "a.toml");
+    const std::string scene = folder.read("a.toml");
     CHECK(holds(scene, "frames = 49\n"));
     CHECK(holds(scene, "\"object.moves.position\""));
     CHECK_FALSE(holds(scene, ".rotation\""));
@@ -159,15 +151,12 @@ TEST_CASE("a moving node becomes tracks of its object, relative to its rest posi
     check_near(vector_in(folder, "a", 12, "\"moves\"", "position"), {0, 1, 0}, 1e-6);
     check_near(vector_in(folder, "a", 36, "\"moves\"", "position"), {2, 2, 0}, 1e-6);
     check_near(vector_in(folder, "a", 48, "\"moves\"", "position"), {4, 2, 0}, 1e-6);
-    const CommandResult film = candela(
-        folder, {"animate", "a.toml", "-o", "f/%03d.ppm", "--step", "24", "--width", "40", "--height", "30"});
-    INFO(film.err);
-    CHECK(film.exit_code == 0);
+    expect(folder.run("animate a.toml -o f/%03d.ppm --step 24 --width 40 --height 30"), 0);
     CHECK(fs::exists(folder / "f" / "048.ppm"));
 }
 
 TEST_CASE("a node that turns about its own pivot looks like one resting at that position") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     const auto file_at = [](double degrees) {
         File file;
         const auto q = about_y(degrees);
@@ -184,19 +173,17 @@ TEST_CASE("a node that turns about its own pivot looks like one resting at that 
     moving.write(folder, "moving");
     import(folder, "moving");
     const auto image = [&](const std::string& name, const std::string& scene, int frame) {
-        const CommandResult result = candela(folder, {"render",   scene,
-                                                      "-o",       name,
-                                                      "--frame",  std::to_string(frame),
-                                                      "--width",  "120",
-                                                      "--height", "90",
-                                                      "--set",    "observer.position=[7,5,9]",
-                                                      "--set",    "observer.look_at=[2,0,1]",
-                                                      "--set",    "room.width=60",
-                                                      "--set",    "room.height=60",
-                                                      "--set",    "room.depth=60"});
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
-        return read_file(folder / name);
+        succeeded(folder.run_words({"render",   scene,
+                                    "-o",       name,
+                                    "--frame",  std::to_string(frame),
+                                    "--width",  "120",
+                                    "--height", "90",
+                                    "--set",    "observer.position=[7,5,9]",
+                                    "--set",    "observer.look_at=[2,0,1]",
+                                    "--set",    "room.width=60",
+                                    "--set",    "room.height=60",
+                                    "--set",    "room.depth=60"}));
+        return folder.read(name);
     };
     for (const auto& [frame, degrees] :
          {std::pair{0, 20.0}, {6, 80.0}, {12, 140.0}, {17, 190.0}, {36, 290.0}}) {
@@ -212,7 +199,7 @@ TEST_CASE("a node that turns about its own pivot looks like one resting at that 
 }
 
 TEST_CASE("a model in place of a scene is shown at rest by render and animated by animate") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     File still, moving;
     still.box("box", {{"translation", {1, 0, 0}}});
     still.write(folder, "still");
@@ -225,24 +212,21 @@ TEST_CASE("a model in place of a scene is shown at rest by render and animated b
         of.insert(of.end(), size.begin(), size.end());
         return of;
     };
-    REQUIRE(candela(folder, words({"render", "still.gltf", "-o", "still.ppm"})).exit_code == 0);
-    const CommandResult rest = candela(folder, words({"render", "moving.gltf", "-o", "rest.ppm"}));
-    REQUIRE(rest.exit_code == 0);
+    succeeded(folder.run_words(words({"render", "still.gltf", "-o", "still.ppm"})));
+    const CommandResult rest =
+        succeeded(folder.run_words(words({"render", "moving.gltf", "-o", "rest.ppm"})));
     CHECK(holds(rest.err, "its animation is left out; the model is shown at rest"));
-    CHECK(read_file(folder / "still.ppm") == read_file(folder / "rest.ppm"));
+    CHECK(folder.read("still.ppm") == folder.read("rest.ppm"));
     import(folder, "moving");
-    REQUIRE(candela(folder, words({"render", "moving.toml", "-o", "a.ppm", "--frame", "24"})).exit_code == 0);
-    REQUIRE(candela(folder, words({"render", "moving.gltf", "-o", "b.ppm", "--frame", "24"})).exit_code == 0);
-    CHECK(read_file(folder / "a.ppm") == read_file(folder / "b.ppm"));
-    const CommandResult film =
-        candela(folder, words({"animate", "moving.gltf", "-o", "%03d.ppm", "--frames", "24..24"}));
-    INFO(film.err);
-    CHECK(film.exit_code == 0);
-    CHECK(read_file(folder / "024.ppm") == read_file(folder / "a.ppm"));
+    succeeded(folder.run_words(words({"render", "moving.toml", "-o", "a.ppm", "--frame", "24"})));
+    succeeded(folder.run_words(words({"render", "moving.gltf", "-o", "b.ppm", "--frame", "24"})));
+    CHECK(folder.read("a.ppm") == folder.read("b.ppm"));
+    expect(folder.run_words(words({"animate", "moving.gltf", "-o", "%03d.ppm", "--frames", "24..24"})), 0);
+    CHECK(folder.read("024.ppm") == folder.read("a.ppm"));
 }
 
 TEST_CASE("steps, splines and rotations beyond 180 degrees are followed") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     File file;
     const std::size_t jumps = file.box("jumps"), swings = file.box("swings"), turns = file.box("turns"),
                       both = file.box("both");
@@ -271,7 +255,7 @@ TEST_CASE("steps, splines and rotations beyond 180 degrees are followed") {
 }
 
 TEST_CASE("the camera and lights move with their nodes") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     File file;
     file.box("box");
     file.json["cameras"] = {
@@ -297,7 +281,7 @@ TEST_CASE("the camera and lights move with their nodes") {
 }
 
 TEST_CASE("motions that tracks cannot describe are left at rest and counted") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     File file;
     const std::size_t moves = file.box("moves");
     file.animate(moves, "translation", {0, 1}, {0, 0, 0, 1, 0, 0});
@@ -316,13 +300,13 @@ TEST_CASE("motions that tracks cannot describe are left at rest and counted") {
     CHECK(holds(imported.err,
                 "its first animation is imported for 1 object; left out: 1 object whose pieces move "
                 "apart, 1 motion that position, rotation and scale cannot describe, the animation 'Run'\n"));
-    const std::string scene = read_file(folder / "a.toml");
+    const std::string scene = folder.read("a.toml");
     CHECK_FALSE(holds(scene, "object.shared"));
     CHECK_FALSE(holds(scene, "object.sheared"));
 }
 
 TEST_CASE("an animation that cannot be read is left out") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     File file;
     const std::size_t box = file.box("box");
     file.animate(box, "translation", {1, 0}, {0, 0, 0, 1, 0, 0});  // times do not increase
@@ -330,7 +314,7 @@ TEST_CASE("an animation that cannot be read is left out") {
     file.animate(box, "scale", {0, 1}, {1, 1, 1, 0, 0, 0});        // the node vanishes
     file.write(folder, "a");
     CHECK(holds(import(folder, "a").err, "its animation is left out; the model is shown at rest"));
-    CHECK_FALSE(holds(read_file(folder / "a.toml"), "animation]"));
+    CHECK_FALSE(holds(folder.read("a.toml"), "animation]"));
     file.json["animations"][0]["samplers"][0]["input"] = 4000000000u;
     file.json["animations"][0]["channels"][1]["target"]["node"] = 77;
     file.json["accessors"].back()["count"] = 4000000000u;
@@ -339,16 +323,17 @@ TEST_CASE("an animation that cannot be read is left out") {
 }
 
 TEST_CASE("an object that leaves the frame is visible on its way, and the room contains it") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     File file;
     file.animate(file.box("box"), "translation", {0, 1}, {0, 0, 0, 40, 0, 0});
     file.write(folder, "a");
     import(folder, "a");
     for (const char* const frame : {"0", "24"}) {
-        REQUIRE(candela(folder, {"render", "a.toml", "-o", "a.ppm", "--frame", frame, "--width", "80",
-                                 "--height", "60"})
+        REQUIRE(folder
+                    .run_words({"render", "a.toml", "-o", "a.ppm", "--frame", frame, "--width", "80",
+                                "--height", "60"})
                     .exit_code == 0);
-        const std::string ppm = read_file(folder / "a.ppm");
+        const std::string ppm = folder.read("a.ppm");
         const std::string pixels = ppm.substr(ppm.size() - std::size_t{3} * 80 * 60);
         std::size_t seen = 0;
         for (std::size_t i = 0; i < pixels.size(); i += 3)

@@ -9,19 +9,16 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
 #include "support/gltf_file.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
 using Json = nlohmann::json;
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-CommandResult candela(const fs::path& folder, const std::vector<std::string>& words) {
-    return run_candela(words, {.input = "", .environment = {}, .directory = folder});
-}
 
 std::string big_endian(std::uint32_t value) {
     std::string bytes;
@@ -109,18 +106,15 @@ struct Imported {
 };
 
 Imported import(File file) {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "a.glb", file.glb());
-    Imported imported{candela(folder, {"import", "a.glb"}), "", ""};
+    const Folder folder;
+    folder.write("a.glb", file.glb());
+    Imported imported{folder.run("import a.glb"), "", ""};
     INFO(imported.result.err);
     REQUIRE(imported.result.exit_code == 0);
-    imported.scene = read_file(folder / "a.toml");
-    const CommandResult rendered =
-        candela(folder, {"render", "a.toml", "-o", "a.ppm", "--width", "80", "--height", "60"});
-    INFO(rendered.err);
-    CHECK(rendered.exit_code == 0);
-    CHECK(rendered.err.find("warning") == std::string::npos);
-    const std::string ppm = read_file(folder / "a.ppm");
+    imported.scene = folder.read("a.toml");
+    const CommandResult rendered = expect(folder.run("render a.toml -o a.ppm --width 80 --height 60"), 0);
+    CHECK_FALSE(holds(rendered.err, "warning"));
+    const std::string ppm = folder.read("a.ppm");
     imported.image = ppm.substr(ppm.size() - std::size_t{3} * 80 * 60);
     return imported;
 }
@@ -211,14 +205,14 @@ TEST_CASE("a material with a mask is cut out along its texture's opacity") {
         CHECK(holds(whole.result.err, "the opacity of a material is left out"));
     }
     SECTION("a printed scene has no place for the outline") {
-        const fs::path folder = scratch_directory();
+        const Folder folder;
         File external = file;
-        write_file(folder / "leaf.png", png(8, 8, pixels));
+        folder.write("leaf.png", png(8, 8, pixels));
         external.json["images"] = {{{"uri", "leaf.png"}}};
-        write_file(folder / "a.glb", external.glb());
-        const CommandResult printed = candela(folder, {"import", "a.glb", "-o", "-"});
-        CHECK(printed.exit_code == 0);
-        CHECK(holds(printed.err, "transparent parts are not cut out: that needs a file next to the scene"));
+        folder.write("a.glb", external.glb());
+        const CommandResult printed =
+            expect(folder.run("import a.glb -o -"), 0,
+                   {"transparent parts are not cut out: that needs a file next to the scene"});
         CHECK_FALSE(holds(printed.out, "cutout"));
     }
 }
@@ -326,14 +320,12 @@ TEST_CASE("damaged pictures in a glTF file are reported, by number for materials
 }
 
 TEST_CASE("warnings about a model do not quote a generated scene") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     File file;
     file.json["extensionsUsed"] = {"EXT_of_ours"};
-    write_file(folder / "a.glb", file.glb());
-    const CommandResult rendered = candela(folder, {"render", "a.glb", "-o", "a.ppm"});
-    CHECK(rendered.exit_code == 0);
-    CHECK(holds(rendered.err, "a.glb: warning: object"));
+    folder.write("a.glb", file.glb());
+    const CommandResult rendered = expect(folder.run("render a.glb -o a.ppm"), 0, {"a.glb: warning: object"});
     CHECK_FALSE(holds(rendered.err, " | "));
-    const CommandResult checked = candela(folder, {"check", "--json", "a.glb"});
+    const CommandResult checked = folder.run("check --json a.glb");
     CHECK(holds(checked.out, "\"line\": 0"));
 }

@@ -13,16 +13,13 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-CommandResult candela(const fs::path& folder, const std::vector<std::string>& words) {
-    return run_candela(words, {.input = "", .environment = {}, .directory = folder});
-}
 
 /// A square that faces +z, with texture coordinates.
 std::string square(const std::string& library, const std::string& material) {
@@ -89,11 +86,10 @@ struct Rendered {
     Pixels image;
 };
 
-Rendered rendered(const fs::path& folder, const std::string& model,
-                  const std::vector<std::string>& more = {}) {
+Rendered rendered(const Folder& folder, const std::string& model, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words = {"render", model, "-o", model + ".ppm"};
     words.insert(words.end(), more.begin(), more.end());
-    Rendered result{candela(folder, words), {}};
+    Rendered result{folder.run_words(words), {}};
     INFO(result.result.err);
     REQUIRE(result.result.exit_code == 0);
     result.image = read_ppm(folder / (model + ".ppm"));
@@ -109,9 +105,9 @@ std::string red_ppm() { return std::string("P6\n1 1\n255\n\xff\0\0", 14); }
 }  // namespace
 
 TEST_CASE("a library is found by its name on another system") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     fs::create_directory(folder / "Materials");
-    write_file(folder / "my paints.mtl", k_red);
+    folder.write("my paints.mtl", k_red);
     write_file(folder / "Materials" / "a.mtl", k_red);
     struct Case {
         const char* name;
@@ -123,95 +119,93 @@ TEST_CASE("a library is found by its name on another system") {
           Case{"Materials\\a.mtl", false}, Case{".\\materials\\A.mtl", true},
           Case{"no.mtl Materials/a.mtl", false}, Case{"my paints.mtl \t", false}}) {
         INFO(named.name);
-        write_file(folder / "a.obj", square(named.name, "m"));
+        folder.write("a.obj", square(named.name, "m"));
         const Rendered model = rendered(folder, "a.obj");
         CHECK(is_red(model.image.middle()));
         CHECK(holds(model.result.err, "is read from") == named.is_noted);
     }
-    write_file(folder / "a.obj", square("no such.mtl", "m"));
+    folder.write("a.obj", square("no such.mtl", "m"));
     CHECK(holds(rendered(folder, "a.obj").result.err, "the material library 'no such.mtl' cannot be read"));
 }
 
 TEST_CASE("a texture is found despite other capitals, with a note") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "Red.ppm", red_ppm());
-    write_file(folder / "a.mtl", "newmtl m\nmap_Kd textures\\RED.PPM\n");
-    write_file(folder / "a.obj", square("a.mtl", "m"));
+    const Folder folder;
+    folder.write("Red.ppm", red_ppm());
+    folder.write("a.mtl", "newmtl m\nmap_Kd textures\\RED.PPM\n");
+    folder.write("a.obj", square("a.mtl", "m"));
     const Rendered model = rendered(folder, "a.obj");
     CHECK(is_red(model.image.middle()));
     CHECK(holds(model.result.err, "the texture 'textures\\RED.PPM' of material 'm' is read from 'Red.ppm'"));
 }
 
 TEST_CASE("names in 8-bit encodings are found as bytes and as decoded text") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     // Latin-1 in the files, UTF-8 on the disk.
     write_file(folder /
                    "gr\xc3\xbc\xc3\x9f"
                    "e.mtl",
                "newmtl t\xfcr\nmap_Kd h\xf6lzern.ppm\n");
-    write_file(folder / "h\xc3\xb6lzern.ppm", red_ppm());
-    write_file(folder / "a.obj", square("gr\xfc\xdf"
-                                        "e.mtl",
-                                        "t\xfcr"));
+    folder.write("h\xc3\xb6lzern.ppm", red_ppm());
+    folder.write("a.obj", square("gr\xfc\xdf"
+                                 "e.mtl",
+                                 "t\xfcr"));
     CHECK(is_red(rendered(folder, "a.obj").image.middle()));
     // Shift-JIS, whose second bytes may be a backslash.
-    write_file(folder / "\xe8\xa1\xa8.ppm", red_ppm());
-    write_file(folder / "b.mtl", "newmtl m\nmap_Kd \x95\\.ppm\n");
-    write_file(folder / "b.obj", square("b.mtl", "m"));
+    folder.write("\xe8\xa1\xa8.ppm", red_ppm());
+    folder.write("b.mtl", "newmtl m\nmap_Kd \x95\\.ppm\n");
+    folder.write("b.obj", square("b.mtl", "m"));
     CHECK(is_red(rendered(folder, "b.obj").image.middle()));
     // The same bytes on the disk, which a scene cannot name: the picture is written next to it.
     fs::remove(folder / "h\xc3\xb6lzern.ppm");
-    write_file(folder / "h\xf6lzern.ppm", red_ppm());
+    folder.write("h\xf6lzern.ppm", red_ppm());
     CHECK(is_red(rendered(folder, "a.obj").image.middle()));
-    REQUIRE(candela(folder, {"import", "a.obj", "-o", "c.toml"}).exit_code == 0);
+    succeeded(folder.run("import a.obj -o c.toml"));
     CHECK(is_red(rendered(folder, "c.toml").image.middle()));
 }
 
 TEST_CASE("materials whose names contain '#', tabs, blanks or a final backslash are distinguished") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "a.mtl",
-               "newmtl Paint #1 \nKd 1 0 0\nnewmtl Paint\t#2\nKd 0 1 0\nnewmtl wood\\\nKd 0 0 1\n"
-               "newmtl door # of oak\nKd 0 0 0.5\n");
-    write_file(
-        folder / "a.obj",
+    const Folder folder;
+    folder.write("a.mtl",
+                 "newmtl Paint #1 \nKd 1 0 0\nnewmtl Paint\t#2\nKd 0 1 0\nnewmtl wood\\\nKd 0 0 1\n"
+                 "newmtl door # of oak\nKd 0 0 0.5\n");
+    folder.write(
+        "a.obj",
         "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl Paint #1\nf 1 2 3\nusemtl Paint #2\t\nf 1 2 3\n"
         "usemtl wood\\\nf 1 2 3\nusemtl door\nf 1 2 3\n");
-    const CommandResult result = candela(folder, {"import", "a.obj", "-o", "a.toml"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(folder.run("import a.obj -o a.toml"));
     CHECK_FALSE(holds(result.err, "warning"));
-    const std::string scene = read_file(folder / "a.toml");
+    const std::string scene = folder.read("a.toml");
     for (const char* const part :
          {"part                = \"Paint #1\"\n", "part                = \"Paint #2\"\n",
           "part                = \"wood\\\\\"\n", "part                = \"door\"\n",
           "kd        = [1.0, 0.0, 0.0]\n", "kd        = [0.0, 1.0, 0.0]\n", "kd        = [0.0, 0.0, 1.0]\n",
           "kd        = [0.0, 0.0, 0.5]\n"})
         CHECK(holds(scene, part));
-    CHECK(candela(folder, {"check", "a.toml"}).exit_code == 0);
+    expect(folder.run("check a.toml"), 0);
 }
 
 TEST_CASE("byte order marks of a model and its library are skipped") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "a.mtl", std::string("\xef\xbb\xbf") + k_red);
-    write_file(folder / "a.obj", "\xef\xbb\xbf" + square("a.mtl", "m"));
+    const Folder folder;
+    folder.write("a.mtl", std::string("\xef\xbb\xbf") + k_red);
+    folder.write("a.obj", "\xef\xbb\xbf" + square("a.mtl", "m"));
     CHECK(is_red(rendered(folder, "a.obj").image.middle()));
-    write_file(folder / "a.mtl", std::string("\xff\xfen\0e\0w\0", 8));
+    folder.write("a.mtl", std::string("\xff\xfen\0e\0w\0", 8));
     CHECK(holds(rendered(folder, "a.obj").result.err, "is left out: it is UTF-16"));
 }
 
 TEST_CASE("a library that no face uses is noted") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "a.mtl", k_red);
-    write_file(folder / "a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const Folder folder;
+    folder.write("a.mtl", k_red);
+    folder.write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     CHECK(holds(rendered(folder, "a.obj").result.err, "no face uses a material (usemtl)"));
 }
 
 TEST_CASE("an ambient colour of white, or none, becomes the surface's own: unlit sides keep its hue") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     for (const char* const ambient : {"Ka 1 1 1\n", "Ka 1.000000 1.000000 1.000000\nillum 1\n", ""}) {
         INFO(ambient);
-        write_file(folder / "a.mtl", fmt::format("newmtl m\nKd 0.8 0 0\n{}", ambient));
-        write_file(folder / "a.obj", ball(1, {}, "mtllib a.mtl\nusemtl m\n"));
+        folder.write("a.mtl", fmt::format("newmtl m\nKd 0.8 0 0\n{}", ambient));
+        folder.write("a.obj", ball(1, {}, "mtllib a.mtl\nusemtl m\n"));
         const Rendered model = rendered(folder, "a.obj");
         int bleached = 0;
         for (int y = 0; y < model.image.height; ++y)
@@ -221,63 +215,62 @@ TEST_CASE("an ambient colour of white, or none, becomes the surface's own: unlit
             }
         CHECK(bleached == 0);
     }
-    write_file(folder / "a.mtl", "newmtl m\nKd 0.8 0.4 0\nKa 0.1 0.2 0.3\n");
-    CHECK(holds(candela(folder, {"import", "a.obj", "-o", "-"}).out, "ka        = [0.1, 0.2, 0.3]\n"));
+    folder.write("a.mtl", "newmtl m\nKd 0.8 0.4 0\nKa 0.1 0.2 0.3\n");
+    CHECK(holds(folder.run("import a.obj -o -").out, "ka        = [0.1, 0.2, 0.3]\n"));
 }
 
 TEST_CASE("a texture's factor of zero becomes one") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "red.ppm", red_ppm());
-    write_file(folder / "a.mtl",
-               "newmtl m\nillum 4\nKd 0.00 0.00 0.00\nKa 0 0 0\nTf 1 1 1\nmap_Kd red.ppm\n");
-    write_file(folder / "a.obj", square("a.mtl", "m"));
+    const Folder folder;
+    folder.write("red.ppm", red_ppm());
+    folder.write("a.mtl", "newmtl m\nillum 4\nKd 0.00 0.00 0.00\nKa 0 0 0\nTf 1 1 1\nmap_Kd red.ppm\n");
+    folder.write("a.obj", square("a.mtl", "m"));
     const Rendered model = rendered(folder, "a.obj");
     CHECK(is_red(model.image.middle()));
     CHECK_FALSE(holds(model.result.err, "transmission"));
 }
 
 TEST_CASE("imported materials reflect no more than they receive, with one note, and are not burnt out") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     for (const char* const material :
          {"Ka 1 1 1\nKd .8 .8 .8\nKs .5 .5 .5\nNs 225\nillum 2\n",
           "Ka 0 0 0\nKd .8 .8 .8\nKs .8 .8 .8\nNs 0\n", "Ka 1 1 1\nKd 1 1 1\nKs 1 1 1\nNs 10\n", "Kd 1 1 1\n",
           "Ka 1 1 1\nKd 0.9 0.2 0.1\nKs 0.3 0.9 0.1\nNs 5\n"}) {
         INFO(material);
-        write_file(folder / "a.mtl", fmt::format("newmtl m\n{0}newmtl n\n{0}", material));
-        write_file(folder / "a.obj", ball(1, {}, "mtllib a.mtl\nusemtl m\n") + "usemtl n\nf 1 2 3\n");
+        folder.write("a.mtl", fmt::format("newmtl m\n{0}newmtl n\n{0}", material));
+        folder.write("a.obj", ball(1, {}, "mtllib a.mtl\nusemtl m\n") + "usemtl n\nf 1 2 3\n");
         const Rendered model = rendered(folder, "a.obj");
         CHECK(model.image.burnt() < 0.05);
         CHECK_FALSE(holds(model.result.err, "more light than it receives"));
         const std::string note = "materials that reflect more light than they receive";
         CHECK(model.result.err.find(note) == model.result.err.rfind(note));
     }
-    write_file(folder / "a.mtl", "newmtl m\nKd .8 .8 .8\nKs .5 .5 .5\nNs 225\n");
+    folder.write("a.mtl", "newmtl m\nKd .8 .8 .8\nKs .5 .5 .5\nNs 225\n");
     CHECK(holds(rendered(folder, "a.obj").result.err, "materials that reflect more light than they receive"));
-    write_file(folder / "a.mtl", "newmtl m\nKd .5 .5 .5\nKs .5 .5 .5\n");
-    const CommandResult without = candela(folder, {"import", "a.obj", "-o", "-"});
+    folder.write("a.mtl", "newmtl m\nKd .5 .5 .5\nKs .5 .5 .5\n");
+    const CommandResult without = folder.run("import a.obj -o -");
     CHECK(holds(without.err, "highlights without an exponent (Ns)"));
     CHECK(holds(without.out, "ks        = 0.0\n"));
 }
 
 TEST_CASE("a picture's format follows from its content: a misnamed one is read, with a note") {
-    const fs::path folder = scratch_directory();
-    write_file(
-        folder / "flat.toml",
+    const Folder folder;
+    folder.write(
+        "flat.toml",
         "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 8\nheight = 8\n"
         "background = [230, 10, 20]\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n");
     for (const char* const name : {"red.jpg", "red.png"})
-        REQUIRE(candela(folder, {"render", "flat.toml", "-o", name}).exit_code == 0);
+        succeeded(folder.run_words({"render", "flat.toml", "-o", name}));
     fs::rename(folder / "red.jpg", folder / "wrong.png");
     fs::rename(folder / "red.png", folder / "wrong.jpg");
-    write_file(folder / "a.obj", square("a.mtl", "m"));
+    folder.write("a.obj", square("a.mtl", "m"));
     for (const char* const name : {"wrong.png", "wrong.jpg"}) {
         INFO(name);
-        write_file(folder / "a.mtl", fmt::format("newmtl m\nmap_Kd {}\n", name));
+        folder.write("a.mtl", fmt::format("newmtl m\nmap_Kd {}\n", name));
         const Rendered model = rendered(folder, "a.obj");
         CHECK(is_red(model.image.middle()));
         CHECK(holds(model.result.err, fmt::format("is read as {}, according to its content",
                                                   name == std::string("wrong.png") ? "jpg" : "png")));
-        REQUIRE(candela(folder, {"import", "a.obj", "-o", "a.toml", "--force"}).exit_code == 0);
+        succeeded(folder.run("import a.obj -o a.toml --force"));
         const Rendered scene = rendered(folder, "a.toml");
         CHECK(is_red(scene.image.middle()));
         CHECK_FALSE(holds(scene.result.err, "warning"));
@@ -285,31 +278,32 @@ TEST_CASE("a picture's format follows from its content: a misnamed one is read, 
 }
 
 TEST_CASE("a broken or empty picture becomes a note and a plain colour on import, and an error in a scene") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "a.obj", square("a.mtl", "m"));
-    write_file(folder / "cut.ppm", "P6\n100 100\n255\nabc");
-    write_file(folder / "empty.png", "");
-    write_file(folder / "text.png", "this is not a picture");
-    write_file(folder / "cut.jpg", "\xff\xd8\xff\xe0");
+    const Folder folder;
+    folder.write("a.obj", square("a.mtl", "m"));
+    folder.write("cut.ppm", "P6\n100 100\n255\nabc");
+    folder.write("empty.png", "");
+    folder.write("text.png", "this is not a picture");
+    folder.write("cut.jpg", "\xff\xd8\xff\xe0");
     for (const char* const name : {"cut.ppm", "empty.png", "text.png", "cut.jpg"}) {
         INFO(name);
-        write_file(folder / "a.mtl", fmt::format("newmtl m\nKd 1 0 0\nmap_Kd {}\n", name));
+        folder.write("a.mtl", fmt::format("newmtl m\nKd 1 0 0\nmap_Kd {}\n", name));
         const Rendered model = rendered(folder, "a.obj");
         CHECK(is_red(model.image.middle()));
         CHECK(holds(model.result.err, fmt::format("the texture '{}' of material 'm' is left out: ", name)));
-        write_file(folder / "a.toml",
-                   fmt::format("version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
-                               "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[object]]\n"
-                               "type = \"mesh\"\nfile = \"a.obj\"\nencloses = true\ncolor_texture = \"{}\"\n",
-                               name));
-        const CommandResult scene = candela(folder, {"render", "a.toml", "-o", "b.ppm"});
+        folder.write(
+            "a.toml",
+            fmt::format("version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+                        "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[object]]\n"
+                        "type = \"mesh\"\nfile = \"a.obj\"\nencloses = true\ncolor_texture = \"{}\"\n",
+                        name));
+        const CommandResult scene = folder.run("render a.toml -o b.ppm");
         CHECK(scene.exit_code != 0);
         CHECK(holds(scene.err, "cannot be read as a picture"));
     }
 }
 
 TEST_CASE("with --allow-outside a model may name files outside its folder; messages name the option") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     for (const char* const each : {"models", "textures"}) fs::create_directory(folder / each);
     write_file(folder / "textures" / "red.ppm", red_ppm());
     write_file(folder / "textures" / "a.mtl", "newmtl m\nmap_Kd red.ppm\n");
@@ -318,30 +312,25 @@ TEST_CASE("with --allow-outside a model may name files outside its folder; messa
     CHECK_FALSE(is_red(refused.image.middle()));
     CHECK(holds(refused.result.err, "is outside the model's folder; --allow-outside reads it"));
     CHECK(is_red(rendered(folder, "models/a.obj", {"--allow-outside"}).image.middle()));
-    REQUIRE(candela(folder, {"import", "models/a.obj", "--allow-outside", "-o", "scene.toml"}).exit_code ==
-            0);
+    succeeded(folder.run("import models/a.obj --allow-outside -o scene.toml"));
     CHECK(is_red(rendered(folder, "scene.toml").image.middle()));
-    CHECK(candela(folder, {"check", "models/a.obj", "--allow-outside"}).exit_code == 0);
+    expect(folder.run("check models/a.obj --allow-outside"), 0);
 
-    const CommandResult scene = candela(folder, {"check", "scene.toml", "--allow-outside"});
-    CHECK(scene.exit_code == 2);
-    CHECK(holds(scene.err, "give the object allow_outside = true"));
+    expect(folder.run("check scene.toml --allow-outside"), 2, {"give the object allow_outside = true"});
 
-    write_file(folder / "b.bin", std::string(36, '\0'));
+    folder.write("b.bin", std::string(36, '\0'));
     write_file(folder / "models" / "b.gltf",
                R"({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
 "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
 "bufferViews": [{"buffer": 0, "byteLength": 36}], "buffers": [{"byteLength": 36, "uri": "../b.bin"}]})");
-    const CommandResult buffer = candela(folder, {"render", "models/b.gltf", "-o", "b.ppm"});
-    CHECK(buffer.exit_code == 1);
-    CHECK(holds(buffer.err, "--allow-outside"));
-    CHECK(candela(folder, {"render", "models/b.gltf", "--allow-outside", "-o", "b.ppm"}).exit_code == 0);
+    expect(folder.run("render models/b.gltf -o b.ppm"), 1, {"--allow-outside"});
+    expect(folder.run("render models/b.gltf --allow-outside -o b.ppm"), 0);
 }
 
 TEST_CASE("a model far from its origin gives the same picture as at the origin") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "here.obj", ball(1, {0, 0, 0}));
+    const Folder folder;
+    folder.write("here.obj", ball(1, {0, 0, 0}));
     const Pixels here = rendered(folder, "here.obj").image;
     for (const std::array<double, 3>& at : {std::array{500000.25, 4500000.75, 120.0},
                                             {4500000.0, 600000.0, 4400000.0},
@@ -349,7 +338,7 @@ TEST_CASE("a model far from its origin gives the same picture as at the origin")
                                             {3e8, 0, 0},
                                             {150.0, 0, 0}}) {
         INFO(at[0]);
-        write_file(folder / "far.obj", ball(1, at));
+        folder.write("far.obj", ball(1, at));
         const Rendered far = rendered(folder, "far.obj");
         CHECK(holds(far.result.err, "which is the scene's origin") == (at[0] != 150));
         REQUIRE(far.image.bytes.size() == here.bytes.size());
@@ -362,34 +351,34 @@ TEST_CASE("a model far from its origin gives the same picture as at the origin")
 }
 
 TEST_CASE("a small model far from the origin is drawn, and its scene says where it lies") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "a.obj", ball(0.05, {500000.25, 4500000.75, 120}));
+    const Folder folder;
+    folder.write("a.obj", ball(0.05, {500000.25, 4500000.75, 120}));
     const Rendered model = rendered(folder, "a.obj");
     CHECK(model.image.middle() != model.image.at(0, 0));
-    REQUIRE(candela(folder, {"import", "a.obj", "-o", "a.toml"}).exit_code == 0);
-    CHECK(holds(read_file(folder / "a.toml"), "origin              = \"500000.25 4500000.75 120\"\n"));
+    succeeded(folder.run("import a.obj -o a.toml"));
+    CHECK(holds(folder.read("a.toml"), "origin              = \"500000.25 4500000.75 120\"\n"));
     CHECK(rendered(folder, "a.toml").image.bytes == model.image.bytes);
     // Also beyond a scene's largest coordinates, and with z up.
-    write_file(folder / "b.obj", ball(20000, {6.4e9, 0, -6.4e9}));
+    folder.write("b.obj", ball(20000, {6.4e9, 0, -6.4e9}));
     CHECK(rendered(folder, "b.obj").image.middle() != model.image.at(0, 0));
-    REQUIRE(candela(folder, {"import", "a.obj", "--up", "z", "-o", "z.toml"}).exit_code == 0);
-    CHECK(holds(read_file(folder / "z.toml"), "origin              = \"500000.25 4500000.75 120\"\n"));
+    succeeded(folder.run("import a.obj --up z -o z.toml"));
+    CHECK(holds(folder.read("z.toml"), "origin              = \"500000.25 4500000.75 120\"\n"));
     CHECK(rendered(folder, "z.toml").image.middle() != model.image.at(0, 0));
 }
 
 TEST_CASE("numbers of a scene are read back unchanged even if six digits are too few") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "a.obj", ball(1, {99.015625, 0, 0}));
-    const CommandResult result = candela(folder, {"import", "a.obj", "-o", "-"});
+    const Folder folder;
+    folder.write("a.obj", ball(1, {99.015625, 0, 0}));
+    const CommandResult result = folder.run("import a.obj -o -");
     CHECK_FALSE(holds(result.out, "origin"));
     CHECK(holds(result.out, "= [99.015625, "));
 }
 
 TEST_CASE("the camera and lights of a glTF file far from the origin are moved with it") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     const auto scene_at = [&](const char* name, double x, double y, double z) {
-        write_file(folder / name,
-                   fmt::format(R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
+        folder.write(name,
+                     fmt::format(R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],
 "nodes": [{{"translation": [{}, {}, {}], "children": [1, 2, 3]}}, {{"mesh": 0}}, {{"camera": 0, "translation": [0.25, 0.25, 3]}},
   {{"translation": [0.5, 1, 2], "extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
 "cameras": [{{"type": "perspective", "perspective": {{"yfov": 0.5, "znear": 0.1}}}}],
@@ -398,7 +387,7 @@ TEST_CASE("the camera and lights of a glTF file far from the origin are moved wi
 "accessors": [{{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}}],
 "bufferViews": [{{"buffer": 0, "byteLength": 36}}], "buffers": [{{"byteLength": 36, "uri":
 "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}}]}})",
-                               x, y, z));
+                                 x, y, z));
         return rendered(folder, name).image;
     };
     const Pixels here = scene_at("here.gltf", 0, 0, 0),
@@ -413,17 +402,17 @@ TEST_CASE("the camera and lights of a glTF file far from the origin are moved wi
 }
 
 TEST_CASE("losses of one kind become one note with a count") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     std::string model = "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\n", library;
     for (int i = 0; i < 50; ++i) {
         model += fmt::format("usemtl m{0}\nf 1/1 2/1 3/1\nusemtl n{0}\nf 1/1 2/1 3/1\n", i);
         library += fmt::format("newmtl m{0}\nmap_Kd no{0}.png\n", i);
     }
-    write_file(folder / "a.obj", model);
-    write_file(folder / "a.mtl", library);
-    const CommandResult result = candela(folder, {"import", "a.obj", "-o", "-"});
-    CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "50 textures do not exist, the first of them 'no0.png' of material 'm0'"));
-    CHECK(holds(result.err, "50 materials are not in any material library, the first of them 'n0'"));
+    folder.write("a.obj", model);
+    folder.write("a.mtl", library);
+    const CommandResult result =
+        expect(folder.run("import a.obj -o -"), 0,
+               {"50 textures do not exist, the first of them 'no0.png' of material 'm0'",
+                "50 materials are not in any material library, the first of them 'n0'"});
     CHECK(std::ranges::count(result.err, '\n') == 2);
 }

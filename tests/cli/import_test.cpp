@@ -15,16 +15,13 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-CommandResult candela(const fs::path& folder, const std::vector<std::string>& words) {
-    return run_candela(words, {.input = "", .environment = {}, .directory = folder});
-}
 
 /// Two squares side by side that face +z, each two metres wide: at x = -1 with the material "left", at x = 1
 /// with "right side".
@@ -115,17 +112,15 @@ constexpr const char* k_plain_nodes = R"("nodes": [{"mesh": 0}, {}, {}])";
 }  // namespace
 
 TEST_CASE("a model in place of a scene is framed: it is completely visible, lit and centred") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     // A cube of 200 metres, 1000 metres away from the origin.
     std::string text;
     for (int i = 0; i < 8; ++i)
         text +=
             fmt::format("v {} {} {}\n", 900 + 200 * (i & 1), 900 + 200 * (i >> 1 & 1), 900 + 200 * (i >> 2));
     text += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-    write_file(folder / "cube.obj", text);
-    const CommandResult result = candela(folder, {"render", "cube.obj", "-o", "cube.ppm"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    folder.write("cube.obj", text);
+    const CommandResult result = succeeded(folder.run("render cube.obj -o cube.ppm"));
     CHECK_FALSE(holds(result.err, "warning"));
     const Pixels picture = read_ppm(folder / "cube.ppm");
     CHECK(picture.covered() > 0.2);
@@ -134,29 +129,27 @@ TEST_CASE("a model in place of a scene is framed: it is completely visible, lit 
 }
 
 TEST_CASE("a model is completely visible in pictures of every proportion, also through its scene") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     std::string text;
     for (int i = 0; i < 8; ++i)
         text += fmt::format("v {} {} {}\n", 4 * (i & 1 ? 1 : -1), i >> 1 & 1 ? 1 : -1,
                             0.3 * (i >> 2 != 0 ? 1 : -1));
     text += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-    write_file(folder / "box.obj", text);
-    REQUIRE(candela(folder, {"import", "box.obj", "-o", "scene.toml"}).exit_code == 0);
+    folder.write("box.obj", text);
+    succeeded(folder.run("import box.obj -o scene.toml"));
     for (const char* const input : {"box.obj", "scene.toml"}) {
         for (const auto& [width, height] :
              {std::pair{"300", "300"}, {"300", "600"}, {"60", "900"}, {"600", "300"}, {"900", "60"}}) {
             INFO(input << " at " << width << " x " << height);
-            REQUIRE(candela(folder, {"render", input, "-o", "box.ppm", "--width", width, "--height", height})
-                        .exit_code == 0);
+            succeeded(
+                folder.run_words({"render", input, "-o", "box.ppm", "--width", width, "--height", height}));
             const Pixels picture = read_ppm(folder / "box.ppm");
             CHECK(picture.covered() > 0.01);
             CHECK(picture.has_free_border());
         }
     }
     // A wide model fills a narrow picture from side to side.
-    const CommandResult narrow =
-        candela(folder, {"render", "scene.toml", "-o", "box.ppm", "--set", "image.width=300"});
-    REQUIRE(narrow.exit_code == 0);
+    succeeded(folder.run("render scene.toml -o box.ppm --set image.width=300"));
     const Pixels picture = read_ppm(folder / "box.ppm");
     int first = picture.width, last = 0;
     for (int x = 0; x < picture.width; ++x)
@@ -166,30 +159,28 @@ TEST_CASE("a model is completely visible in pictures of every proportion, also t
 }
 
 TEST_CASE("import writes the scene that render shows: both make the same picture") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     fs::create_directory(folder / "models");
     write_file(folder / "models" / "two.obj", k_squares);
     write_file(folder / "models" / "two.mtl", std::string(k_two_materials) + "map_Kd grey.ppm\n");
     write_file(folder / "models" / "grey.ppm", grey_ppm(120));
-    REQUIRE(candela(folder, {"render", "models/two.obj", "-o", "a.ppm"}).exit_code == 0);
-    const CommandResult import = candela(folder, {"import", "models/two.obj", "-o", "models/scene.toml"});
+    succeeded(folder.run("render models/two.obj -o a.ppm"));
+    const CommandResult import = folder.run("import models/two.obj -o models/scene.toml");
     INFO(import.err);
     REQUIRE(import.exit_code == 0);
     CHECK(holds(import.err, "2 objects, 3 lights, 1 texture"));
     // The scene can be moved together with the model.
     fs::rename(folder / "models", folder / "moved");
-    const CommandResult render = candela(folder, {"render", "moved/scene.toml", "-o", "b.ppm"});
-    INFO(render.err);
-    REQUIRE(render.exit_code == 0);
+    const CommandResult render = succeeded(folder.run("render moved/scene.toml -o b.ppm"));
     CHECK_FALSE(holds(render.err, "warning"));
-    CHECK(read_file(folder / "a.ppm") == read_file(folder / "b.ppm"));
+    CHECK(folder.read("a.ppm") == folder.read("b.ppm"));
 }
 
 TEST_CASE("import translates an MTL file's Phong parameters, and reports each loss once") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "two.obj", k_squares);
-    write_file(folder / "two.mtl", k_two_materials);
-    const CommandResult result = candela(folder, {"import", "two.obj", "-o", "-"});
+    const Folder folder;
+    folder.write("two.obj", k_squares);
+    folder.write("two.mtl", k_two_materials);
+    const CommandResult result = folder.run("import two.obj -o -");
     REQUIRE(result.exit_code == 0);
     CHECK(holds(result.out, "name                = \"left\"\n"));
     CHECK(holds(result.out, "part                = \"right side\"\n"));
@@ -201,7 +192,7 @@ TEST_CASE("import translates an MTL file's Phong parameters, and reports each lo
     CHECK(result.err == "candela: warning: the opacity of materials is left out; they are opaque\n");
     CHECK(holds(result.out, "# Note: the opacity of materials is left out"));
     SECTION("each part has its own colour in the picture") {
-        REQUIRE(candela(folder, {"render", "two.obj", "-o", "a.ppm"}).exit_code == 0);
+        succeeded(folder.run("render two.obj -o a.ppm"));
         const Pixels picture = read_ppm(folder / "a.ppm");
         const auto left = picture.at(picture.width / 3, picture.height / 2);
         const auto right = picture.at(picture.width * 2 / 3, picture.height / 2);
@@ -211,15 +202,14 @@ TEST_CASE("import translates an MTL file's Phong parameters, and reports each lo
 }
 
 TEST_CASE("import reports missing libraries, materials and textures, and goes on") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "two.obj", k_squares);
-    CommandResult result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
-    CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "2 materials are not in any material library, the first of them 'left'"));
-    write_file(folder / "two.mtl",
-               "newmtl left\nmap_Kd -s 2 2 2 -clamp on no such.png\nnewmtl right side\nmap_Kd a.xyz\n");
-    write_file(folder / "a.xyz", "what?");
-    result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
+    const Folder folder;
+    folder.write("two.obj", k_squares);
+    CommandResult result = expect(folder.run("render two.obj -o a.ppm"), 0,
+                                  {"2 materials are not in any material library, the first of them 'left'"});
+    folder.write("two.mtl",
+                 "newmtl left\nmap_Kd -s 2 2 2 -clamp on no such.png\nnewmtl right side\nmap_Kd a.xyz\n");
+    folder.write("a.xyz", "what?");
+    result = folder.run("render two.obj -o a.ppm");
     CHECK(result.exit_code == 0);
     CHECK(holds(result.err, "the texture 'no such.png' of material 'left' does not exist"));
     CHECK(
@@ -229,28 +219,26 @@ TEST_CASE("import reports missing libraries, materials and textures, and goes on
 }
 
 TEST_CASE("materials whose names are not UTF-8 are distinguished by their numbers") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "a.obj",
-               "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl never\nusemtl \xe9\nf 1 2 3\nusemtl b\nf 1 3 2\n");
-    const CommandResult result = candela(folder, {"import", "a.obj", "-o", "-"});
-    CHECK(result.exit_code == 0);
-    CHECK(holds(result.out, "part                = \"#1\"\n"));
-    CHECK(holds(result.out, "part                = \"b\"\n"));
-    CHECK(candela(folder, {"render", "a.obj", "-o", "a.ppm"}).exit_code == 0);
+    const Folder folder;
+    folder.write("a.obj",
+                 "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl never\nusemtl \xe9\nf 1 2 3\nusemtl b\nf 1 3 2\n");
+    expect_out(folder.run("import a.obj -o -"), 0,
+               {"part                = \"#1\"\n", "part                = \"b\"\n"});
+    expect(folder.run("render a.obj -o a.ppm"), 0);
 }
 
 TEST_CASE("files outside its folder that an OBJ file names are not opened") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     fs::create_directory(folder / "model");
-    write_file(folder / "secret.mtl", "newmtl left\nKd 1 0 0\n");
-    write_file(folder / "secret.ppm", grey_ppm(7));
+    folder.write("secret.mtl", "newmtl left\nKd 1 0 0\n");
+    folder.write("secret.ppm", grey_ppm(7));
     write_file(folder / "model" / "two.obj",
                "mtllib ../secret.mtl\nmtllib two.mtl\n" + std::string(k_squares));
     write_file(folder / "model" / "two.mtl", "newmtl left\nmap_Kd ../secret.ppm\nnewmtl right side\n");
-    const CommandResult result = candela(folder, {"import", "model/two.obj", "-o", "-"});
-    CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "secret.mtl' is outside the model's folder"));
-    CHECK(holds(result.err, "the texture '../secret.ppm' of material 'left' is outside the model's folder"));
+    const CommandResult result =
+        expect(folder.run("import model/two.obj -o -"), 0,
+               {"secret.mtl' is outside the model's folder",
+                "the texture '../secret.ppm' of material 'left' is outside the model's folder"});
     CHECK_FALSE(holds(result.out, "color_texture"));
 }
 
@@ -261,28 +249,26 @@ TEST_CASE("an invalid or hostile MTL file leaves the model unchanged") {
           std::string("Kd 1 1 1\nmap_Kd\n"),
           "newmtl left\nmap_Kd -s -o -t\nKd spectral a.rfl\n" + std::string(100000, '-'),
           "newmtl left\nmap_Kd /dev/zero\nKd 5 5 5\n" + std::string(50000, '\n')}) {
-        const fs::path folder = scratch_directory();
-        write_file(folder / "two.obj", k_squares);
-        write_file(folder / "two.mtl", library);
-        const CommandResult result = candela(folder, {"render", "two.obj", "-o", "a.ppm"});
+        const Folder folder;
+        folder.write("two.obj", k_squares);
+        folder.write("two.mtl", library);
+        const CommandResult result = folder.run("render two.obj -o a.ppm");
         INFO(library.substr(0, 60) << '\n' << result.err);
         CHECK(result.exit_code == 0);
     }
 }
 
 TEST_CASE("import translates a glTF file's camera, lights and metallic-roughness materials") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "a.gltf", gltf(R"("nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0.5, 4]},
+    const Folder folder;
+    folder.write("a.gltf", gltf(R"("nodes": [{"mesh": 0}, {"camera": 0, "translation": [0, 0.5, 4]},
   {"translation": [0, 2, 3], "rotation": [-0.7071068, 0, 0, 0.7071068], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
 "cameras": [{"type": "perspective", "perspective": {"yfov": 0.5235988, "aspectRatio": 2, "znear": 0.1}}],
 "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "name": "beam", "intensity": 31.4159265, "color": [1, 0.2158605, 0],
   "spot": {"innerConeAngle": 0.1745329, "outerConeAngle": 0.5235988}}]}},
 "materials": [{"name": "gold", "normalTexture": {"index": 0}, "pbrMetallicRoughness":
   {"baseColorFactor": [1, 0.5, 0.25, 1], "metallicFactor": 1, "roughnessFactor": 0.5}}])",
-                                       R"(, "material": 0)"));
-    const CommandResult result = candela(folder, {"import", "a.gltf", "-o", "-"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+                                R"(, "material": 0)"));
+    const CommandResult result = succeeded(folder.run("import a.gltf -o -"));
     INFO(result.out);
     CHECK(holds(result.out,
                 "position     = [0.0, 0.5, 4.0]\nlook_at      = [0.0, 0.5, 0.0]\nfov          = 30.0\n"));
@@ -296,48 +282,45 @@ TEST_CASE("import translates a glTF file's camera, lights and metallic-roughness
     CHECK(holds(result.out,
                 "kd        = 0.0\nks        = [1.0, 0.5, 0.25]\nroughness = 0.25\nior       = 100.0\n"));
     CHECK(holds(result.err, "a normal map is left out"));
-    CHECK(candela(folder, {"render", "a.gltf", "-o", "a.ppm"}).exit_code == 0);
+    expect(folder.run("render a.gltf -o a.ppm"), 0);
 }
 
 TEST_CASE("a texture inside a glTF file is written next to the scene, and render shows it without that") {
-    const fs::path folder = scratch_directory();
-    write_file(
-        folder / "grey.toml",
+    const Folder folder;
+    folder.write(
+        "grey.toml",
         "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 2\nheight = 2\n"
         "background = [10, 200, 30]\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n");
-    REQUIRE(candela(folder, {"render", "grey.toml", "-o", "green.png"}).exit_code == 0);
-    write_file(folder / "a.gltf",
-               gltf(fmt::format(R"({}, "images": [{{"name": "leaf", "uri": "data:image/png;base64,{}"}}],
+    succeeded(folder.run("render grey.toml -o green.png"));
+    folder.write("a.gltf",
+                 gltf(fmt::format(R"({}, "images": [{{"name": "leaf", "uri": "data:image/png;base64,{}"}}],
 "textures": [{{"source": 0, "sampler": 0}}], "samplers": [{{"wrapS": 33071, "wrapT": 33071}}],
 "materials": [{{"pbrMetallicRoughness": {{"baseColorTexture": {{"index": 0}}, "metallicFactor": 0}}}}])",
-                                k_plain_nodes, base64(read_file(folder / "green.png"))),
-                    R"(, "material": 0)"));
-    const CommandResult import = candela(folder, {"import", "a.gltf"});
-    INFO(import.err);
-    REQUIRE(import.exit_code == 0);
-    CHECK(read_file(folder / "a_textures" / "leaf_0.png") == read_file(folder / "green.png"));
-    CHECK(holds(read_file(folder / "a.toml"),
+                                  k_plain_nodes, base64(folder.read("green.png"))),
+                      R"(, "material": 0)"));
+    const CommandResult import = succeeded(folder.run("import a.gltf"));
+    CHECK(read_file(folder / "a_textures" / "leaf_0.png") == folder.read("green.png"));
+    CHECK(holds(folder.read("a.toml"),
                 "color_texture       = \"a_textures/leaf_0.png\"\ncolor_texture_wrap  = \"clamp\"\n"));
-    REQUIRE(candela(folder, {"render", "a.toml", "-o", "b.ppm"}).exit_code == 0);
-    REQUIRE(candela(folder, {"render", "a.gltf", "-o", "a.ppm"}).exit_code == 0);
-    CHECK(read_file(folder / "a.ppm") == read_file(folder / "b.ppm"));
+    succeeded(folder.run("render a.toml -o b.ppm"));
+    succeeded(folder.run("render a.gltf -o a.ppm"));
+    CHECK(folder.read("a.ppm") == folder.read("b.ppm"));
     const Pixels picture = read_ppm(folder / "a.ppm");
     const auto middle = picture.at(picture.width / 2, picture.height / 2);
     CHECK(middle[1] > 2 * middle[0]);
     CHECK(middle[1] > 2 * middle[2]);
-    CHECK(candela(folder, {"import", "a.gltf"}).exit_code == 1);  // it exists already
-    CHECK(candela(folder, {"import", "a.gltf", "--force"}).exit_code == 0);
+    expect(folder.run("import a.gltf"), 1);  // it exists already
+    expect(folder.run("import a.gltf --force"), 0);
     // A link in place of the folder, whose name Candela chooses, is not followed.
     fs::remove(folder / "a_textures" / "leaf_0.png");
     fs::rename(folder / "a_textures", folder / "elsewhere");
     fs::create_directory_symlink("elsewhere", folder / "a_textures");
-    CHECK(
-        holds(candela(folder, {"import", "a.gltf", "--force"}).err, "a_textures' cannot be created: a link"));
+    CHECK(holds(folder.run("import a.gltf --force").err, "a_textures' cannot be created: a link"));
     CHECK(fs::is_empty(folder / "elsewhere"));
 }
 
 TEST_CASE("textures of a glTF file that are broken, elsewhere or endless are left out with a reason") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     struct Case {
         const char* image;
         const char* reason;
@@ -358,8 +341,8 @@ TEST_CASE("textures of a glTF file that are broken, elsewhere or endless are lef
         const std::string view = R"({"buffer": 0, "byteOffset": 36, "byteLength": 24})";
         text.replace(text.find(view), view.size(),
                      view + R"(, {"buffer": 0, "byteOffset": 50, "byteLength": 4000000000})");
-        write_file(folder / "a.gltf", text);
-        const CommandResult result = candela(folder, {"render", "a.gltf", "-o", "a.ppm"});
+        folder.write("a.gltf", text);
+        const CommandResult result = folder.run("render a.gltf -o a.ppm");
         INFO(wrong.image << '\n' << result.err);
         CHECK(result.exit_code == 0);
         CHECK(holds(result.err, "a texture of material 'm' is left out: "));
@@ -368,32 +351,28 @@ TEST_CASE("textures of a glTF file that are broken, elsewhere or endless are lef
 }
 
 TEST_CASE("values of the wrong type in a glTF file become defaults, and cyclic nodes are refused") {
-    const fs::path folder = scratch_directory();
-    write_file(
-        folder / "a.gltf",
+    const Folder folder;
+    folder.write(
+        "a.gltf",
         gltf(R"("nodes": [{"mesh": 0}, {"camera": 0, "name": 7}, {"extensions": {"KHR_lights_punctual": 5}}],
 "cameras": [{"type": 3, "perspective": []}], "extensions": {"KHR_lights_punctual": {"lights": {}}},
 "textures": 4, "images": "x", "samplers": [[]],
 "materials": [{"name": [], "extensions": [], "alphaMode": 1, "emissiveFactor": [1],
   "pbrMetallicRoughness": {"baseColorFactor": ["a", 1, 1, 1], "metallicFactor": "x", "baseColorTexture": {"index": "0"}}}])",
              R"(, "material": 0)"));
-    const CommandResult odd = candela(folder, {"render", "a.gltf", "-o", "a.ppm"});
-    INFO(odd.err);
-    CHECK(odd.exit_code == 0);
-    write_file(folder / "b.gltf", gltf(R"("nodes": [{"mesh": 0, "children": [1]}, {"children": [0]}, {}])"));
-    const CommandResult circle = candela(folder, {"render", "b.gltf", "-o", "a.ppm"});
-    CHECK(circle.exit_code == 1);
-    CHECK(holds(circle.err, "has two parents or contains itself"));
+    expect(folder.run("render a.gltf -o a.ppm"), 0);
+    folder.write("b.gltf", gltf(R"("nodes": [{"mesh": 0, "children": [1]}, {"children": [0]}, {}])"));
+    expect(folder.run("render b.gltf -o a.ppm"), 1, {"has two parents or contains itself"});
 }
 
 TEST_CASE("lights that would burn out the picture, or leave it black, are scaled together with a note") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     for (const char* const intensity : {"1e6", "1e-9"}) {
-        write_file(folder / "a.gltf", gltf(fmt::format(R"("nodes": [{{"mesh": 0}}, {{}},
+        folder.write("a.gltf", gltf(fmt::format(R"("nodes": [{{"mesh": 0}}, {{}},
   {{"translation": [0, 0, 3], "extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
 "extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "point", "intensity": {}}}]}}}})",
-                                                       intensity)));
-        const CommandResult result = candela(folder, {"render", "a.gltf", "-o", "a.ppm"});
+                                                intensity)));
+        const CommandResult result = folder.run("render a.gltf -o a.ppm");
         INFO(result.err);
         REQUIRE(result.exit_code == 0);
         CHECK(holds(result.err, "times as bright as in the file"));
@@ -406,105 +385,94 @@ TEST_CASE("lights that would burn out the picture, or leave it black, are scaled
 
 TEST_CASE(
     "lamps at the camera, or at the same position, are moved apart with a note, and give a valid scene") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     const char* const lamp =
         R"({"translation": [0, 0, 3], "extensions": {"KHR_lights_punctual": {"light": 0}}})";
-    write_file(folder / "a.gltf",
-               gltf(fmt::format(R"("nodes": [{{"mesh": 0}}, {{"translation": [0, 0, 3], "camera": 0}},
+    folder.write("a.gltf",
+                 gltf(fmt::format(R"("nodes": [{{"mesh": 0}}, {{"translation": [0, 0, 3], "camera": 0}},
   {{"children": [3, 4, 5]}}, {0}, {0}, {0}],
 "cameras": [{{"type": "perspective", "perspective": {{"yfov": 0.8, "znear": 0.1}}}}],
 "extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "point"}}]}}}})",
-                                lamp)));
-    const CommandResult result = candela(folder, {"import", "a.gltf", "-o", "a.toml"});
+                                  lamp)));
+    const CommandResult result = folder.run("import a.gltf -o a.toml");
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
     CHECK(holds(result.err, "lights at the position of another light or the camera are moved"));
-    CHECK(candela(folder, {"check", "a.toml"}).exit_code == 0);
+    expect(folder.run("check a.toml"), 0);
     std::set<std::string> positions;
-    std::istringstream scene(read_file(folder / "a.toml"));
+    std::istringstream scene(folder.read("a.toml"));
     for (std::string line; std::getline(scene, line);)
         if (line.starts_with("position")) positions.insert(line.substr(line.find('[')));
     CHECK(positions.size() == 4);
 }
 
 TEST_CASE("vertex colours are shown unchanged, and z is up in STL files") {
-    const fs::path folder = scratch_directory();
-    write_file(
-        folder / "a.ply",
+    const Folder folder;
+    folder.write(
+        "a.ply",
         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
         "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
         "property list uchar int vertex_indices\nend_header\n"
         "-1 -1 0 255 0 0\n1 -1 0 255 0 0\n0 1 0 255 0 0\n3 0 1 2\n");
-    const CommandResult ply = candela(folder, {"import", "a.ply", "-o", "-"});
+    const CommandResult ply = folder.run("import a.ply -o -");
     CHECK(holds(ply.out, "color               = [255, 255, 255]\n"));
-    write_file(folder / "b.stl",
-               "solid b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
-               "7\nendloop\nendfacet\n"
-               "endsolid b\n");
-    CHECK(holds(candela(folder, {"import", "b.stl", "-o", "-"}).out,
-                "rotation            = [-90.0, 0.0, 0.0]\n"));
-    CHECK_FALSE(holds(candela(folder, {"import", "b.stl", "--up", "y", "-o", "-"}).out, "rotation"));
-    CHECK(candela(folder, {"import", "b.stl", "--up", "x", "-o", "-"}).exit_code == 2);
+    folder.write("b.stl",
+                 "solid b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+                 "7\nendloop\nendfacet\n"
+                 "endsolid b\n");
+    CHECK(holds(folder.run("import b.stl -o -").out, "rotation            = [-90.0, 0.0, 0.0]\n"));
+    CHECK_FALSE(holds(folder.run("import b.stl --up y -o -").out, "rotation"));
+    expect(folder.run("import b.stl --up x -o -"), 2);
 }
 
 TEST_CASE("verbs that take a scene also take a model; edit says what to do instead") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "two.obj", k_squares);
-    write_file(folder / "two.mtl", k_two_materials);
-    CHECK(holds(candela(folder, {"check", "two.obj"}).out, "objects   2"));
-    CHECK(candela(folder, {"render", "two.obj", "-o", "a.ppm", "--reflection", "lambert", "--width", "40",
-                           "--set", "object.left.color=[1,2,3]"})
-              .exit_code == 0);
-    CHECK(candela(folder, {"compare", "two.obj", "--shading", "flat,phong", "-o", "a.ppm"}).exit_code == 0);
-    const CommandResult edit = candela(folder, {"edit", "two.obj", "--change", "image.width=3"});
-    CHECK(edit.exit_code == 2);
-    CHECK(holds(edit.err, "'two.obj' is a model, not a scene; make a scene of it with candela import"));
-    const CommandResult two = candela(folder, {"render", "two.obj", "scene.toml", "-o", "a.ppm"});
-    CHECK(two.exit_code == 2);
-    CHECK(holds(two.err, "which is shown on its own"));
+    const Folder folder;
+    folder.write("two.obj", k_squares);
+    folder.write("two.mtl", k_two_materials);
+    CHECK(holds(folder.run("check two.obj").out, "objects   2"));
+    CHECK(
+        folder.run("render two.obj -o a.ppm --reflection lambert --width 40 --set object.left.color=[1,2,3]")
+            .exit_code == 0);
+    expect(folder.run("compare two.obj --shading flat,phong -o a.ppm"), 0);
+    expect(folder.run("edit two.obj --change image.width=3"), 2,
+           {"'two.obj' is a model, not a scene; make a scene of it with candela import"});
+    expect(folder.run("render two.obj scene.toml -o a.ppm"), 2, {"which is shown on its own"});
 }
 
 TEST_CASE("import refuses files that are not models, missing or broken, and writes nothing") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "a.txt", "hello");
-    write_file(folder / "broken.obj", "v 0 0\nf 1 2 3\n");
-    const CommandResult other = candela(folder, {"import", "a.txt"});
-    CHECK(other.exit_code == 2);
-    CHECK(holds(other.err, "'a.txt' has an unsupported format; expected .obj, .ply, .stl, .gltf or .glb"));
-    const CommandResult missing = candela(folder, {"import", "b.obj"});
-    CHECK(missing.exit_code == 1);
-    CHECK(holds(missing.err, "'b.obj' does not exist"));
-    const CommandResult broken = candela(folder, {"import", "broken.obj"});
-    CHECK(broken.exit_code == 1);
-    CHECK(holds(broken.err, "line 1: a vertex has three coordinates"));
-    CHECK(candela(folder, {"import"}).exit_code == 2);
+    const Folder folder;
+    folder.write("a.txt", "hello");
+    folder.write("broken.obj", "v 0 0\nf 1 2 3\n");
+    expect(folder.run("import a.txt"), 2,
+           {"'a.txt' has an unsupported format; expected .obj, .ply, .stl, .gltf or .glb"});
+    expect(folder.run("import b.obj"), 1, {"'b.obj' does not exist"});
+    expect(folder.run("import broken.obj"), 1, {"line 1: a vertex has three coordinates"});
+    expect(folder.run("import"), 2);
     CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 2);
 }
 
 TEST_CASE("a PLY file shows the texture named in MeshLab's comment") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     const auto write = [&](const char* picture) {
-        write_file(folder / "a.ply",
-                   fmt::format(
-                       "ply\nformat ascii 1.0\ncomment TextureFile {}\nelement vertex 4\nproperty float x\n"
-                       "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
-                       "vertex_indices\nproperty list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n1 1 0\n"
-                       "0 1 0\n4 0 1 2 3 8 0 0 1 0 1 1 0 1\n",
-                       picture));
+        folder.write(
+            "a.ply",
+            fmt::format(
+                "ply\nformat ascii 1.0\ncomment TextureFile {}\nelement vertex 4\nproperty float x\n"
+                "property float y\nproperty float z\nelement face 1\nproperty list uchar int "
+                "vertex_indices\nproperty list uchar float texcoord\nend_header\n0 0 0\n1 0 0\n1 1 0\n"
+                "0 1 0\n4 0 1 2 3 8 0 0 1 0 1 1 0 1\n",
+                picture));
     };
-    write_file(folder / "red paint.ppm", std::string("P6\n1 1\n255\n\xff\0\0", 14));
+    folder.write("red paint.ppm", std::string("P6\n1 1\n255\n\xff\0\0", 14));
     write("red paint.ppm");
-    const CommandResult result = candela(folder, {"render", "a.ply", "-o", "a.ppm"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(folder.run("render a.ply -o a.ppm"));
     CHECK_FALSE(holds(result.err, "warning"));
     const Pixels picture = read_ppm(folder / "a.ppm");
     const auto middle = picture.at(picture.width / 2, picture.height / 2);
     CHECK(middle[0] > 4 * middle[1]);
     write("nowhere.png");
-    CHECK(holds(candela(folder, {"render", "a.ply", "-o", "a.ppm"}).err,
-                "its texture 'nowhere.png' does not exist"));
+    CHECK(holds(folder.run("render a.ply -o a.ppm").err, "its texture 'nowhere.png' does not exist"));
     write("../a.ppm");
-    write_file(folder.parent_path() / "a.ppm", grey_ppm(9));
-    CHECK(holds(candela(folder, {"render", "a.ply", "-o", "a.ppm"}).err, "is outside the model's folder"));
+    write_file(folder.path().parent_path() / "a.ppm", grey_ppm(9));
+    CHECK(holds(folder.run("render a.ply -o a.ppm").err, "is outside the model's folder"));
 }

@@ -26,6 +26,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -107,10 +109,10 @@ void refuse_files_without_names() {
 struct TwoImages {
     TwoImages(const fs::path& directory, const std::string& extension) {
         const fs::path file = directory / ("picture." + extension);
-        REQUIRE(run_program(render_to(file, {"--set", "object.cube.color=[40,90,235]"})).exit_code == 0);
+        succeeded(run_program(render_to(file, {"--set", "object.cube.color=[40,90,235]"})));
         old_bytes = read_file(file);
         const auto begin = Clock::now();
-        REQUIRE(run_program(render_to(file)).exit_code == 0);
+        succeeded(run_program(render_to(file)));
         seconds = Seconds(Clock::now() - begin).count();
         new_bytes = read_file(file);
         REQUIRE((old_bytes != new_bytes));
@@ -192,7 +194,7 @@ TEST_CASE("killed at any moment, an EXR leaves nothing in the directory of tempo
     fs::create_directory(image.parent_path());
     fs::create_directory(temporary);
     const CommandSetup setup{.input = "", .environment = {{"TMPDIR", temporary.string()}}, .directory = {}};
-    REQUIRE(run_program(render_to(image), setup).exit_code == 0);
+    succeeded(run_program(render_to(image), setup));
     int killed_writing = 0;
     for (int i = 0; i < 10; ++i) {
         fs::remove(image);
@@ -248,11 +250,11 @@ TEST_CASE("on a file system without unnamed files, pictures are complete and kee
         ::umask(027);
         refuse_files_without_names();
     };
-    REQUIRE(run_program(render_to(image), setup).exit_code == 0);
+    succeeded(run_program(render_to(image), setup));
     CHECK(static_cast<int>(fs::status(image).permissions()) == 0640);
     const std::string bytes = read_file(image);
     fs::permissions(image, fs::perms::owner_read | fs::perms::owner_write);
-    REQUIRE(run_program(render_to(image), setup).exit_code == 0);
+    succeeded(run_program(render_to(image), setup));
     CHECK(static_cast<int>(fs::status(image).permissions()) == 0600);
     check_only_old(image, bytes);
 }
@@ -267,10 +269,7 @@ TEST_CASE("a picture beyond the file size limit is an error, and the old one sta
             if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(125);
             if (!without_names) refuse_files_without_names();
         };
-        const CommandResult result = run_program(render_to(image), setup);
-        INFO(result.err);
-        CHECK(result.exit_code == 1);
-        CHECK(result.err.find("picture.ppm' cannot be written: File too large") != std::string::npos);
+        expect(run_program(render_to(image), setup), 1, {"picture.ppm' cannot be written: File too large"});
         check_only_old(image, "old");
     }
 }
@@ -296,10 +295,7 @@ TEST_CASE("a directory that cannot be written to is an error, and the old pictur
         std::vector<std::string> words = as_nobody;
         const std::vector<std::string> render = render_to(directory / name);
         words.insert(words.end(), render.begin(), render.end());
-        const CommandResult result = run_program(words);
-        INFO(result.err);
-        CHECK(result.exit_code == 1);
-        CHECK(result.err.find("cannot be created: Permission denied") != std::string::npos);
+        expect(run_program(words), 1, {"cannot be created: Permission denied"});
         check_only_old(image, "old");
     }
     fs::permissions(directory,

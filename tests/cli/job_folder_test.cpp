@@ -18,6 +18,8 @@
 #include "sandbox/temporary_folder.h"
 #include "support/box_scene.h"
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -55,8 +57,6 @@ struct JobWorkspace {
     static constexpr const char* k_content = "nobody may touch this\n";
     fs::path directory, victims;
 };
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 void check_refused(const CommandResult& result, int code, const std::string& part) {
     INFO(result.out << result.err);
@@ -349,11 +349,9 @@ TEST_CASE("names that are special to a shell or sbatch are quoted in scripts and
             continue;
         }
         REQUIRE(result.exit_code == 0);
-        const CommandResult done =
-            run_program({"/bin/sh", "-c", result.out},
-                        {.input = "", .environment = {}, .directory = place.directory / name});
-        INFO(done.err);
-        CHECK(done.exit_code == 0);
+        expect(run_program({"/bin/sh", "-c", result.out},
+                           {.input = "", .environment = {}, .directory = place.directory / name}),
+               0);
         CHECK(fs::exists(place.directory / name / "f/%x0001.png"));
         CHECK_FALSE(fs::exists(place.directory / name / "t"));
         CHECK_FALSE(fs::exists(place.directory / "t"));
@@ -397,7 +395,7 @@ TEST_CASE("temporary folders are private whatever the umask, and the results are
     }
     CommandSetup setup{.input = "", .environment = {}, .directory = directory};
     setup.prepare = [] { ::umask(027); };
-    REQUIRE(run_candela({"generate", "--target", "cpp", "-o", "program"}, setup).exit_code == 0);
+    succeeded(run_candela({"generate", "--target", "cpp", "-o", "program"}, setup));
     CHECK(static_cast<int>(fs::status(directory / "program").permissions()) == 0750);
 }
 

@@ -7,6 +7,8 @@
 
 #include "support/box_scene.h"
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
@@ -71,16 +73,12 @@ struct Workspace {
         Words all = words;
         all.insert(all.end(), {"-o", "picture.ppm"});
         fs::remove(directory / "picture.ppm");
-        const CommandResult result = candela(all);
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
+        succeeded(candela(all));
         return read_file(directory / "picture.ppm");
     }
 
     fs::path directory;
 };
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -14,8 +16,6 @@ namespace {
 CommandSetup in(const fs::path& directory) {
     return {.input = "", .environment = {}, .directory = directory};
 }
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 
@@ -38,10 +38,8 @@ TEST_CASE("new writes scene.toml, valid without a warning, and says what to do n
 
 TEST_CASE("the picture of the new scene shows lit objects of several colours") {
     const fs::path directory = scratch_directory();
-    REQUIRE(run_candela({"new", "mine.toml"}, in(directory)).exit_code == 0);
-    const CommandResult render = run_candela({"render", "mine.toml", "-o", "a.ppm"}, in(directory));
-    INFO(render.err);
-    REQUIRE(render.exit_code == 0);
+    succeeded(run_candela({"new", "mine.toml"}, in(directory)));
+    succeeded(run_candela({"render", "mine.toml", "-o", "a.ppm"}, in(directory)));
     constexpr std::size_t k_pixels = std::size_t{800} * 500;
     const std::string header = "P6\n800 500\n255\n";
     const std::string image = read_file(directory / "a.ppm");
@@ -68,14 +66,12 @@ TEST_CASE("the picture of the new scene shows lit objects of several colours") {
 TEST_CASE("new keeps an existing file, unless --force is given") {
     const fs::path directory = scratch_directory();
     const fs::path file = write_file(directory / "scene.toml", "mine");
-    const CommandResult refused = run_candela({"new"}, in(directory));
-    CHECK(refused.exit_code == 1);
-    CHECK(holds(refused.err, "'scene.toml' already exists; --force replaces it"));
+    expect(run_candela({"new"}, in(directory)), 1, {"'scene.toml' already exists; --force replaces it"});
     CHECK(read_file(file) == "mine");
-    CHECK(run_candela({"new", "--force"}, in(directory)).exit_code == 0);
-    CHECK(read_file(file).find("[observer]") != std::string::npos);
+    expect(run_candela({"new", "--force"}, in(directory)), 0);
+    CHECK(holds(read_file(file), "[observer]"));
     fs::create_symlink("nowhere.toml", directory / "link.toml");
-    CHECK(run_candela({"new", "link.toml"}, in(directory)).exit_code == 1);
+    expect(run_candela({"new", "link.toml"}, in(directory)), 1);
 }
 
 TEST_CASE("new - prints the scene, and writes nothing") {
@@ -84,29 +80,24 @@ TEST_CASE("new - prints the scene, and writes nothing") {
     CHECK(printed.exit_code == 0);
     CHECK(printed.err.empty());
     CHECK(fs::is_empty(directory));
-    REQUIRE(run_candela({"new"}, in(directory)).exit_code == 0);
+    succeeded(run_candela({"new"}, in(directory)));
     CHECK(printed.out == read_file(directory / "scene.toml"));
 }
 
 TEST_CASE("new in an impossible place, or with more than one name, is an error") {
     const fs::path directory = scratch_directory();
-    const CommandResult gone = run_candela({"new", "gone/scene.toml"}, in(directory));
-    CHECK(gone.exit_code == 1);
-    CHECK(holds(gone.err, "there is no folder"));
+    expect(run_candela({"new", "gone/scene.toml"}, in(directory)), 1, {"there is no folder"});
     fs::create_directory(directory / "directory");
-    CHECK(run_candela({"new", "directory"}, in(directory)).exit_code == 1);
-    const CommandResult forced = run_candela({"new", "directory", "--force"}, in(directory));
-    CHECK(forced.exit_code == 1);
-    CHECK(holds(forced.err, "is a directory"));
-    CHECK(run_candela({"new", "a.toml", "b.toml"}, in(directory)).exit_code == 2);
+    expect(run_candela({"new", "directory"}, in(directory)), 1);
+    expect(run_candela({"new", "directory", "--force"}, in(directory)), 1, {"is a directory"});
+    expect(run_candela({"new", "a.toml", "b.toml"}, in(directory)), 2);
     CHECK(fs::is_empty(directory / "directory"));
 }
 
 TEST_CASE("the command suggested by new can be pasted into a shell") {
     const fs::path directory = scratch_directory();
-    const CommandResult result = run_candela({"new", "it's a scene.toml"}, in(directory));
-    CHECK(result.exit_code == 0);
-    CHECK(holds(result.err, "candela render 'it'\\''s a scene.toml'"));
+    expect(run_candela({"new", "it's a scene.toml"}, in(directory)), 0,
+           {"candela render 'it'\\''s a scene.toml'"});
 }
 
 TEST_CASE("plugin new accepts a kernel in the kernel language, and locates the error in another") {
@@ -123,12 +114,9 @@ TEST_CASE("plugin new accepts a kernel in the kernel language, and locates the e
             {"plugin", "new", "reflection", "mine", "--from", "reflection/phong", "--kernel", "mine.kernel"},
             in(directory));
     };
-    const CommandResult refused = made("Surface &t = s;");
-    CHECK(refused.exit_code == 2);
-    CHECK(holds(refused.err, "mine.kernel:4:13: the kernel language has neither pointers nor references"));
+    expect(made("Surface &t = s;"), 2,
+           {"mine.kernel:4:13: the kernel language has neither pointers nor references"});
     CHECK(!fs::exists(directory / "mine"));
-    const CommandResult result = made("float unused = 1.0f;  // so far");
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+    expect(made("float unused = 1.0f;  // so far"), 0);
     CHECK(holds(read_file(directory / "mine/mine.kernel"), "float unused = 1.0f;  // so far"));
 }

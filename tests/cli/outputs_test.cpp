@@ -7,6 +7,8 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -18,20 +20,19 @@ constexpr const char* k_rest =
     "keys = [[0, [0, 0, 0]], [1, [0, 9, 0]]]\n";
 
 /// The inputs have names that a picture may also have.
-fs::path folder_with_scene() {
-    const fs::path d = scratch_directory();
+Folder folder_with_scene() {
+    const Folder d;
     for (const std::string environment : {"", "environment = \"sky.ppm\"\n"})
         write_file(d / (environment.empty() ? "plain.ppm" : "scene.ppm"),
                    std::string("include = [\"part.ppm\"]\nversion = 1\n") + k_rest +
                        "[image]\nwidth = 8\nheight = 8\n" + environment +
                        "[[object]]\nname = \"mesh\"\ntype = \"mesh\"\nfile = \"model.gltf\"\n"
                        "color_texture = \"texture.ppm\"\n");
-    write_file(d / "part.ppm", "[[light]]\ntype = \"ambient\"\n");
+    d.write("part.ppm", "[[light]]\ntype = \"ambient\"\n");
     for (const char* const name : {"sky.ppm", "texture.ppm", "texture.normal.ppm", "frame1.ppm"})
-        write_file(d / name, "P6\n1 1\n255\nabc");
-    write_file(
-        d / "model.gltf",
-        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        d.write(name, "P6\n1 1\n255\nabc");
+    d.write("model.gltf",
+            R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
     "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
     "textures": [{"source": 0}], "images": [{"uri": "pic%20ture.ppm"}],
@@ -42,21 +43,17 @@ fs::path folder_with_scene() {
     std::string buffer(60, '\0');
     buffer.replace(12, 4, std::string("\0\0\x80\x3f", 4));
     buffer.replace(28, 4, std::string("\0\0\x80\x3f", 4));
-    write_file(d / "buffer.ppm", buffer);
-    write_file(d / "pic ture.ppm", "P6\n1 1\n255\nabc");
-    write_file(d / "model.obj",
-               "mtllib my library.ppm\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
-    write_file(d / "my library.ppm", "newmtl a\nKd 1 0 0\nmap_Kd -s 1 1 1 wood.ppm\n");
-    write_file(d / "wood.ppm", "P6\n1 1\n255\nabc");
+    d.write("buffer.ppm", buffer);
+    d.write("pic ture.ppm", "P6\n1 1\n255\nabc");
+    d.write("model.obj",
+            "mtllib my library.ppm\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
+    d.write("my library.ppm", "newmtl a\nKd 1 0 0\nmap_Kd -s 1 1 1 wood.ppm\n");
+    d.write("wood.ppm", "P6\n1 1\n255\nabc");
     fs::create_directory(d / "sub");
     return d;
 }
 
-CommandResult in(const fs::path& directory, const std::vector<std::string>& words) {
-    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
-}
-
-std::map<std::string, std::string> contents_of(const fs::path& directory) {
+std::map<std::string, std::string> contents_of(const Folder& directory) {
     std::map<std::string, std::string> contents;
     for (const auto& entry : fs::directory_iterator(directory))
         if (entry.is_regular_file()) contents[entry.path().filename().string()] = read_file(entry.path());
@@ -64,7 +61,7 @@ std::map<std::string, std::string> contents_of(const fs::path& directory) {
 }
 
 /// The files that are changed or new.
-std::string changes_in(const fs::path& directory, const std::map<std::string, std::string>& before) {
+std::string changes_in(const Folder& directory, const std::map<std::string, std::string>& before) {
     const std::map<std::string, std::string> after = contents_of(directory);
     std::string changes;
     for (const auto& [name, content] : after)
@@ -75,7 +72,7 @@ std::string changes_in(const fs::path& directory, const std::map<std::string, st
 }
 
 /// Other names of a file.
-std::vector<std::string> spellings_of(const fs::path& directory, const std::string& name) {
+std::vector<std::string> spellings_of(const Folder& directory, const std::string& name) {
     fs::create_symlink(name, directory / ("soft-" + name));
     fs::create_hard_link(directory / name, directory / ("hard-" + name));
     return {name, "./" + name, "sub/../" + name, (directory / name).string(), "soft-" + name, "hard-" + name};
@@ -95,7 +92,7 @@ std::vector<std::string> with_output(std::vector<std::string> words, const std::
 }  // namespace
 
 TEST_CASE("no verb overwrites a file that it reads, by whatever name or link") {
-    const fs::path d = folder_with_scene();
+    const Folder d = folder_with_scene();
     const std::vector<std::string> scene{"scene.ppm", "part.ppm", "sky.ppm", "texture.ppm", "buffer.ppm"};
     const std::vector<std::string> obj{"my library.ppm", "wood.ppm", "model.obj"},
         gltf{"buffer.ppm", "pic ture.ppm", "model.gltf"};
@@ -119,10 +116,10 @@ TEST_CASE("no verb overwrites a file that it reads, by whatever name or link") {
          }) {
         for (const std::string& input : attempt.inputs) {
             for (const std::string& name : names.at(input)) {
-                const CommandResult result = in(d, with_output(attempt.words, name));
+                const CommandResult result = d.run_words(with_output(attempt.words, name));
                 INFO(attempt.words[0] << ' ' << name << ": " << result.err);
                 CHECK(result.exit_code == 2);
-                CHECK(result.err.find(" another name") != std::string::npos);
+                CHECK(holds(result.err, " another name"));
                 CHECK(changes_in(d, before) == "");
             }
         }
@@ -130,7 +127,7 @@ TEST_CASE("no verb overwrites a file that it reads, by whatever name or link") {
 }
 
 TEST_CASE("files that a verb names itself, such as terms and frames, do not overwrite inputs either") {
-    const fs::path d = folder_with_scene();
+    const Folder d = folder_with_scene();
     const std::map<std::string, std::string> before = contents_of(d);
     const std::string set = "object.mesh.color_texture=";
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
@@ -139,30 +136,29 @@ TEST_CASE("files that a verb names itself, such as terms and frames, do not over
              {"animate", "scene.ppm", "-o", "frame%d.ppm", "--set", set + "frame1.ppm"},
              {"submit", "scene.ppm", "-o", "frame%d.ppm", "--engine", "print", "--set",
               set + "frame1.ppm"}}) {
-        const CommandResult result = in(d, words);
+        const CommandResult result = d.run_words(words);
         INFO(words[0] << ": " << result.err);
         CHECK(result.exit_code == 2);
-        CHECK(result.err.find("is one of the files that the scene is made from") != std::string::npos);
+        CHECK(holds(result.err, "is one of the files that the scene is made from"));
         CHECK(changes_in(d, before) == "");
     }
 }
 
 TEST_CASE("a task's journal is not a user option, and overwrites only journals") {
-    const fs::path d = folder_with_scene();
+    const Folder d = folder_with_scene();
     const std::map<std::string, std::string> before = contents_of(d);
     for (const std::string verb : {"render", "animate", "assemble"})
-        expect(in(d, {verb, "scene.ppm", "--journal", "scene.ppm"}), 2, {"unknown option '--journal'"});
-    expect(in(d, {"--task", "scene.ppm", "render", "scene.ppm", "-o", "picture.png"}), 2,
+        expect(d.run_words({verb, "scene.ppm", "--journal", "scene.ppm"}), 2, {"unknown option '--journal'"});
+    expect(d.run("--task scene.ppm render scene.ppm -o picture.png"), 2,
            {"'scene.ppm' is not the journal of a task"});
     CHECK(changes_in(d, before) == "");
-    CHECK(in(d, {"--task", "journal", "render", "-o", "picture.png"}).exit_code == 0);
-    CHECK(in(d, {"--task", "journal", "render", "-o", "picture.png"}).exit_code == 0);
+    expect(d.run("--task journal render -o picture.png"), 0);
+    expect(d.run("--task journal render -o picture.png"), 0);
 }
 
 TEST_CASE("any existing file is kept with --no-clobber, before any work is done") {
-    const fs::path d = folder_with_scene();
-    for (const char* const name : {"mine.png", "mine.svg", "mine.html", "mine.ppm"})
-        write_file(d / name, "mine");
+    const Folder d = folder_with_scene();
+    for (const char* const name : {"mine.png", "mine.svg", "mine.html", "mine.ppm"}) d.write(name, "mine");
     const std::map<std::string, std::string> before = contents_of(d);
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"render", "-o", "mine.png"},
@@ -174,7 +170,7 @@ TEST_CASE("any existing file is kept with --no-clobber, before any work is done"
              {"exercise", "new", "reflection/phong", "--blank", "reflect", "-o", "mine.html"}}) {
         std::vector<std::string> all = words;
         all.emplace_back("--no-clobber");
-        const CommandResult result = in(d, all);
+        const CommandResult result = d.run_words(all);
         INFO(words[0] << ": " << result.err);
         CHECK(result.exit_code != 0);
         CHECK(changes_in(d, before) == "");
@@ -182,87 +178,86 @@ TEST_CASE("any existing file is kept with --no-clobber, before any work is done"
 }
 
 TEST_CASE("import keeps existing pictures unless they are the same or --force is given") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     const std::string image =
         "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGP4z8AAAAMBAQDJ/pLvAAAAAElFTkSuQmCC";
-    write_file(
-        d / "m.gltf",
-        R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    d.write("m.gltf",
+            R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}],
     "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
     "textures": [{"source": 0}], "images": [{"uri": "data:image/png;base64,)" +
-            image + R"("}],
+                image + R"("}],
     "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]},
                   {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
     "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
     "buffers": [{"byteLength": 60, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAAAAAAAAAAAAIA/AAAAAAAAAAAAAIA/"}]})");
-    REQUIRE(in(d, {"import", "m.gltf"}).exit_code == 0);
-    REQUIRE(fs::exists(d / "m_textures"));
+    succeeded(d.run("import m.gltf"));
+    REQUIRE(d.has("m_textures"));
     const fs::path texture = *fs::directory_iterator(d / "m_textures");
     const std::string content = read_file(texture);
     fs::remove(d / "m.toml");
-    CHECK(in(d, {"import", "m.gltf"}).exit_code == 0);
+    expect(d.run("import m.gltf"), 0);
     fs::remove(d / "m.toml");
     write_file(texture, "mine");
-    expect(in(d, {"import", "m.gltf"}), 1, {"already exists; --force replaces it"});
+    expect(d.run("import m.gltf"), 1, {"already exists; --force replaces it"});
     CHECK(read_file(texture) == "mine");
-    CHECK_FALSE(fs::exists(d / "m.toml"));
-    CHECK(in(d, {"import", "m.gltf", "--force"}).exit_code == 0);
+    CHECK_FALSE(d.has("m.toml"));
+    expect(d.run("import m.gltf --force"), 0);
     CHECK(read_file(texture) == content);
 }
 
 TEST_CASE("a missing folder is reported before any work is done") {
-    const fs::path d = folder_with_scene();
+    const Folder d = folder_with_scene();
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"render", "-o", "gone/a.png"},
              {"compare", "-o", "gone/a.png", "--reflection", "phong,lambert"},
              {"plot", "reflection/phong", "-o", "gone/a.svg"},
              {"import", "model.obj", "-o", "gone/a.toml"},
              {"new", "gone/a.toml"}})
-        expect(in(d, words), 1, {"cannot be written: there is no folder 'gone'"});
-    CHECK_FALSE(fs::exists(d / "gone"));
+        expect(d.run_words(words), 1, {"cannot be written: there is no folder 'gone'"});
+    CHECK_FALSE(d.has("gone"));
 }
 
 TEST_CASE("if one of the terms cannot be written, neither the picture nor any other term is") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     fs::create_directory(d / "a.specular.png");
-    expect(in(d, {"render", "-o", "a.png", "--terms", "diffuse,specular"}), 1, {"is a directory"});
+    expect(d.run("render -o a.png --terms diffuse,specular"), 1, {"is a directory"});
     CHECK(std::distance(fs::directory_iterator(d), {}) == 1);
     fs::remove(d / "a.specular.png");
-    write_file(d / "a.png", "old");
-    CHECK(in(d, {"render", "-o", "a.png", "--terms", "diffuse,specular"}).exit_code == 0);
+    d.write("a.png", "old");
+    expect(d.run("render -o a.png --terms diffuse,specular"), 0);
     CHECK(std::distance(fs::directory_iterator(d), {}) == 3);
-    CHECK(read_file(d / "a.png") != "old");
+    CHECK(d.read("a.png") != "old");
 }
 
 TEST_CASE("a file that replaces another keeps the execute permissions, but not set-user-ID") {
-    const fs::path d = scratch_directory();
-    const fs::path file = write_file(d / "a.png", "old");
+    const Folder d;
+    const fs::path file = d.write("a.png", "old");
     fs::permissions(file, fs::perms::owner_all | fs::perms::group_exec | fs::perms::set_uid |
                               fs::perms::set_gid | fs::perms::sticky_bit);
-    REQUIRE(in(d, {"render", "-o", "a.png"}).exit_code == 0);
+    succeeded(d.run("render -o a.png"));
     CHECK(fs::status(file).permissions() == (fs::perms::owner_all | fs::perms::group_exec));
 }
 
 TEST_CASE("a file in CANDELA_PLUGIN_PATH is reported") {
-    const fs::path d = scratch_directory();
-    write_file(d / "file", "");
+    const Folder d;
+    d.write("file", "");
     const auto with = [&](const std::string& path) {
         return run_candela({"list"},
                            {.input = "", .environment = {{"CANDELA_PLUGIN_PATH", path}}, .directory = d});
     };
     expect(with((d / "file").string()), 1, {"CANDELA_PLUGIN_PATH names '", "which is not a folder"});
-    expect(with(d.string() + ":" + (d / "file").string()), 1, {"which is not a folder"});
-    CHECK(with(d.string() + "::" + (d / "gone").string()).exit_code == 0);
+    expect(with(d.path().string() + ":" + (d / "file").string()), 1, {"which is not a folder"});
+    CHECK(with(d.path().string() + "::" + (d / "gone").string()).exit_code == 0);
 }
 
 TEST_CASE("a page or a diagram does not overwrite a scene, whose extension differs") {
-    const fs::path d = scratch_directory();
-    REQUIRE(in(d, {"new"}).exit_code == 0);
+    const Folder d;
+    succeeded(d.run("new"));
     const std::map<std::string, std::string> before = contents_of(d);
-    expect(in(d, {"exercise", "new", "phong", "--blank", "reflect", "-o", "scene.toml"}), 2,
+    expect(d.run("exercise new phong --blank reflect -o scene.toml"), 2,
            {"'scene.toml' is not the name of a page; expected one that ends in .html"});
-    expect(in(d, {"plot", "reflection/phong", "-o", "scene.toml"}), 2, {"neither .svg nor .csv"});
-    expect(in(d, {"render", "-o", "scene.toml"}), 2, {"has a format that no image plugin writes"});
+    expect(d.run("plot reflection/phong -o scene.toml"), 2, {"neither .svg nor .csv"});
+    expect(d.run("render -o scene.toml"), 2, {"has a format that no image plugin writes"});
     CHECK(changes_in(d, before) == "");
 }

@@ -9,6 +9,9 @@
 
 #include "support/box_scene.h"
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -19,14 +22,10 @@ std::string scene_text() {
 )";
 }
 
-fs::path with_scene() {
-    const fs::path directory = scratch_directory();
-    write_file(directory / "scene.toml", scene_text());
+Folder with_scene() {
+    const Folder directory;
+    directory.write("scene.toml", scene_text());
     return directory;
-}
-
-CommandResult candela(const fs::path& directory, const std::vector<std::string>& words) {
-    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
 }
 
 void require(const CommandResult& result) {
@@ -34,22 +33,20 @@ void require(const CommandResult& result) {
     REQUIRE(result.exit_code == 0);
 }
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-void render_part(const fs::path& directory, const std::string& image, const std::string& part) {
-    require(candela(directory, {"render", "scene.toml", "-o", image, "--part", part}));
+void render_part(const Folder& directory, const std::string& image, const std::string& part) {
+    require(directory.run_words({"render", "scene.toml", "-o", image, "--part", part}));
 }
 
 void check_parts_of(const std::string& extension) {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     const std::string image = "poster." + extension, whole = "whole." + extension;
-    require(candela(directory, {"render", "scene.toml", "-o", whole}));
+    require(directory.run_words({"render", "scene.toml", "-o", whole}));
     for (const int parts : {1, 3, 7}) {
         INFO(extension << ", " << parts << " parts");
         for (int i = parts; i >= 1; --i)
             render_part(directory, image, std::to_string(i) + "/" + std::to_string(parts));
-        require(candela(directory, {"assemble", image}));
-        CHECK(read_file(directory / image) == read_file(directory / whole));
+        require(directory.run_words({"assemble", image}));
+        CHECK(directory.read(image) == directory.read(whole));
         CHECK_FALSE(fs::exists(directory / (image + ".parts")));
         fs::remove(directory / image);
     }
@@ -68,81 +65,74 @@ TEST_CASE("assembled parts equal the picture rendered in one go, in every other 
 }
 
 TEST_CASE("large pictures, which are written in tiles, read back unchanged") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     const std::vector<std::string> size = {"--width", "16384", "--height", "300"};
     for (const std::string extension : {"tif", "png"}) {
         std::vector<std::string> words = {"render", "scene.toml", "-o", "large." + extension};
         words.insert(words.end(), size.begin(), size.end());
-        require(candela(directory, words));
+        require(directory.run_words(words));
     }
-    const CommandResult diff = candela(directory, {"diff", "large.tif", "large.png"});
-    INFO(diff.out << diff.err);
-    CHECK(diff.exit_code == 0);
-    CHECK(holds(diff.out, "identical           100 %"));
+    expect_out(directory.run("diff large.tif large.png"), 0, {"identical           100 %"});
 }
 
 TEST_CASE("assemble says which parts are missing and which were made from other inputs") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     for (const char* const part : {"1/6", "2/6", "4/6"}) render_part(directory, "poster.png", part);
-    CommandResult result = candela(directory, {"assemble", "poster.png"});
-    CHECK(result.exit_code == 1);
-    CHECK(holds(result.err, "is incomplete (6 parts); missing: 3, 5-6"));
-    CHECK_FALSE(fs::exists(directory / "poster.png"));
+    CommandResult result =
+        expect(directory.run("assemble poster.png"), 1, {"is incomplete (6 parts); missing: 3, 5-6"});
+    CHECK_FALSE(directory.has("poster.png"));
 
     std::string scene = scene_text();
     scene.replace(scene.find("9.0"), 3, "8.0");
-    write_file(directory / "scene.toml", scene);
+    directory.write("scene.toml", scene);
     for (const char* const part : {"3/6", "5/6", "6/6"}) render_part(directory, "poster.png", part);
-    result = candela(directory, {"assemble", "poster.png"});
+    result = directory.run("assemble poster.png");
     CHECK(result.exit_code == 1);
     CHECK(holds(result.err, "made from other inputs than the part rendered last: 1-2, 4"));
     for (const char* const part : {"1/6", "2/6", "4/6"}) render_part(directory, "poster.png", part);
-    require(candela(directory, {"assemble", "poster.png", "--keep-parts"}));
-    CHECK(fs::exists(directory / "poster.png.parts/6-of-6.pixels"));
-    require(candela(directory, {"render", "scene.toml", "-o", "whole.png"}));
-    CHECK(read_file(directory / "poster.png") == read_file(directory / "whole.png"));
+    require(directory.run("assemble poster.png --keep-parts"));
+    CHECK(directory.has("poster.png.parts/6-of-6.pixels"));
+    require(directory.run("render scene.toml -o whole.png"));
+    CHECK(directory.read("poster.png") == directory.read("whole.png"));
 }
 
 TEST_CASE("a part that is up to date is kept, a truncated one is not, and repeating is harmless") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     render_part(directory, "poster.tif", "1/2");
     const fs::path file = directory / "poster.tif.parts/1-of-2.pixels";
     const std::string whole = read_file(file);
-    CHECK(holds(candela(directory, {"render", "scene.toml", "-o", "poster.tif", "--part", "1/2"}).err,
-                "already up to date"));
+    CHECK(holds(directory.run("render scene.toml -o poster.tif --part 1/2").err, "already up to date"));
     write_file(file, whole.substr(0, whole.size() / 2));
     render_part(directory, "poster.tif", "1/2");
     CHECK(read_file(file) == whole);
     render_part(directory, "poster.tif", "2/2");
-    require(candela(directory, {"assemble", "poster.tif"}));
-    const CommandResult again = candela(directory, {"assemble", "poster.tif"});
-    CHECK(again.exit_code == 0);
-    CHECK(holds(again.err, "is already complete"));
-    CHECK(holds(candela(directory, {"render", "scene.toml", "-o", "poster.tif", "--part", "2/2"}).err,
+    require(directory.run("assemble poster.tif"));
+    expect(directory.run("assemble poster.tif"), 0, {"is already complete"});
+    CHECK(holds(directory.run("render scene.toml -o poster.tif --part 2/2").err,
                 "the picture is already complete"));
-    CHECK_FALSE(fs::exists(directory / "poster.tif.parts"));
+    CHECK_FALSE(directory.has("poster.tif.parts"));
 }
 
 TEST_CASE("a part whose bytes have changed is not used, and is rendered again") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     for (const char* const part : {"1/2", "2/2"}) render_part(directory, "poster.tif", part);
     const fs::path file = directory / "poster.tif.parts/2-of-2.pixels";
     const std::string whole = read_file(file);
     std::string changed = whole;
     changed[changed.size() / 2] ^= 1;
     write_file(file, changed);
-    const CommandResult result = candela(directory, {"assemble", "poster.tif"});
+    const CommandResult result = directory.run("assemble poster.tif");
     CHECK(result.exit_code == 1);
     CHECK(holds(result.err,
                 "2-of-2.pixels' has changed since it was rendered; render it again with --part 2/2"));
-    CHECK_FALSE(fs::exists(directory / "poster.tif"));
+    CHECK_FALSE(directory.has("poster.tif"));
     render_part(directory, "poster.tif", "2/2");
     CHECK(read_file(file) == whole);
-    require(candela(directory, {"assemble", "poster.tif"}));
+    require(directory.run("assemble poster.tif"));
 }
 
 TEST_CASE("a description that has changed since its parts were rendered makes no other picture of them") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     for (const char* const part : {"1/2", "2/2"}) render_part(directory, "poster.tif", part);
     const fs::path description = directory / "poster.tif.parts/picture.json";
     const std::string right = read_file(description);
@@ -152,35 +142,30 @@ TEST_CASE("a description that has changed since its parts were rendered makes no
     linear.replace(linear.find("true"), 4, "false");
     for (const std::string& changed : {narrow, linear}) {
         write_file(description, changed);
-        const CommandResult result = candela(directory, {"assemble", "poster.tif"});
-        CHECK(result.exit_code == 1);
-        CHECK(holds(result.err, "made from other inputs than the part rendered last: 1-2"));
-        CHECK_FALSE(fs::exists(directory / "poster.tif"));
+        expect(directory.run("assemble poster.tif"), 1,
+               {"made from other inputs than the part rendered last: 1-2"});
+        CHECK_FALSE(directory.has("poster.tif"));
     }
     write_file(description, right);
-    require(candela(directory, {"assemble", "poster.tif"}));
+    require(directory.run("assemble poster.tif"));
 }
 
 TEST_CASE("submit --parts makes the same picture as in one go, and status follows it") {
-    const fs::path directory = with_scene();
-    require(candela(directory, {"submit", "scene.toml", "-o", "poster.tif", "--parts", "5", "--jobs", "2"}));
-    require(candela(directory, {"render", "scene.toml", "-o", "whole.tif"}));
-    CHECK(read_file(directory / "poster.tif") == read_file(directory / "whole.tif"));
-    const auto status = nlohmann::json::parse(candela(directory, {"status", "--json"}).out).at(0);
+    const Folder directory = with_scene();
+    require(directory.run("submit scene.toml -o poster.tif --parts 5 --jobs 2"));
+    require(directory.run("render scene.toml -o whole.tif"));
+    CHECK(directory.read("poster.tif") == directory.read("whole.tif"));
+    const auto status = nlohmann::json::parse(directory.run("status --json").out).at(0);
     CHECK(status["done"] == 5);
     CHECK(status["last"]["state"] == "done");
-    CHECK_FALSE(fs::exists(directory / "poster.tif.parts"));
-    CHECK(holds(candela(directory, {"submit", "scene.toml", "-o", "poster.tif", "--parts", "5"}).err,
-                "5 of them already done"));
+    CHECK_FALSE(directory.has("poster.tif.parts"));
+    CHECK(holds(directory.run("submit scene.toml -o poster.tif --parts 5").err, "5 of them already done"));
 }
 
 TEST_CASE("messages explain mistakes with parts") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& part) {
-        const CommandResult result = candela(directory, words);
-        INFO(result.err);
-        CHECK(result.exit_code == code);
-        CHECK(holds(result.err, part));
+        expect(directory.run_words(words), code, {part});
     };
     const auto render = [](std::vector<std::string> more) {
         more.insert(more.begin(), {"render", "scene.toml", "-o", "p.png"});
@@ -197,7 +182,7 @@ TEST_CASE("messages explain mistakes with parts") {
     refused({"assemble"}, 2, "needs the picture's name");
     refused({"assemble", "p.png"}, 1, "'p.png' has no parts");
     refused({"assemble", "p.what"}, 2, "has a format that no image plugin");
-    write_file(directory / "p.png.parts/picture.json", "{\"width\": 3}");
+    directory.write("p.png.parts/picture.json", "{\"width\": 3}");
     refused({"assemble", "p.png"}, 1, "does not describe a picture");
     refused({"submit", "scene.toml", "--parts", "4"}, 2, "name it with -o");
     refused({"submit", "scene.toml", "--parts", "4", "-o", "a.png", "--chunk", "3"}, 2,
@@ -208,25 +193,23 @@ TEST_CASE("messages explain mistakes with parts") {
 // AddressSanitizer and ThreadSanitizer reserve terabytes.
 #if !defined(__SANITIZE_ADDRESS__) && !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer)
 TEST_CASE("a part of a picture of 65536 x 65536, and a picture by rows, take less than 1 GiB") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     CommandSetup setup{.input = "", .environment = {}, .directory = directory};
     setup.prepare = [] {
         const rlimit room{.rlim_cur = rlim_t{1} << 30, .rlim_max = rlim_t{1} << 30};
         ::setrlimit(RLIMIT_AS, &room);
     };
     const std::string large = "65536";
-    const CommandResult part = run_candela({"render", "scene.toml", "--width", large, "--height", large, "-o",
-                                            "poster.tif", "--part", "65/128", "--threads", "2"},
-                                           setup);
-    INFO(part.err);
-    CHECK(part.exit_code == 0);
+    expect(run_candela({"render", "scene.toml", "--width", large, "--height", large, "-o", "poster.tif",
+                        "--part", "65/128", "--threads", "2"},
+                       setup),
+           0);
     CHECK(fs::file_size(directory / "poster.tif.parts/65-of-128.pixels") == 3ull * 65536 * 512);
 
     // 1.2 GB of pixels.
-    const CommandResult rows = run_candela(
-        {"render", "scene.toml", "--width", large, "--height", "6000", "-o", "rows.png", "--threads", "2"},
-        setup);
-    INFO(rows.err);
-    CHECK(rows.exit_code == 0);
+    expect(run_candela({"render", "scene.toml", "--width", large, "--height", "6000", "-o", "rows.png",
+                        "--threads", "2"},
+                       setup),
+           0);
 }
 #endif

@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using Catch::Approx;
@@ -18,8 +21,6 @@ using Catch::Approx;
 namespace {
 
 constexpr double k_degree = 0.017453292519943295;
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// The first line's cells, some of them quoted.
 std::vector<std::string> header_of(const std::string& line) {
@@ -65,9 +66,7 @@ struct Table {
 
 Table plotted(std::vector<std::string> words) {
     words.insert(words.begin(), "plot");
-    const CommandResult result = run_candela(words);
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(run_candela(words));
     return Table(result.out);
 }
 
@@ -75,9 +74,7 @@ Table plotted(std::vector<std::string> words) {
 struct LightTable {
     explicit LightTable(std::vector<std::string> words) {
         words.insert(words.begin(), "plot");
-        const CommandResult result = run_candela(words);
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
+        const CommandResult result = succeeded(run_candela(words));
         std::istringstream lines(result.out);
         std::string line;
         std::getline(lines, line);
@@ -137,10 +134,8 @@ TEST_CASE("plot: a model's own value overrides the one for all models, and lists
 }
 
 TEST_CASE("plot: --match finds the exponent of Blinn-Phong's lobe that is nearest to Phong's") {
-    const CommandResult result = run_candela(
-        {"plot", "phong:shininess=20", "blinn-phong", "--match", "shininess", "--incidence", "30"});
-    INFO(result.out << result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(run_candela(
+        {"plot", "phong:shininess=20", "blinn-phong", "--match", "shininess", "--incidence", "30"}));
     // In this plane R.V = cos(a) and N.H = cos(a / 2), with a from the mirror direction: the same least
     // squares fit here.
     double best = 0, least = 1e30;
@@ -162,14 +157,12 @@ TEST_CASE("plot: --match finds the exponent of Blinn-Phong's lobe that is neares
 
 TEST_CASE("plot: a diagram is SVG with a curve for each model, whose radius is the intensity") {
     const fs::path file = scratch_directory() / "lobes.svg";
-    const CommandResult result = run_candela(
-        {"plot", "reflection/lambert:kd=0.5", "reflection/phong", "--incidence", "60", "-o", file.string()});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(run_candela(
+        {"plot", "reflection/lambert:kd=0.5", "reflection/phong", "--incidence", "60", "-o", file.string()}));
     CHECK(result.out.empty());
     // Reads it with an independent parser. Lambert's curve is 0.5 cos 60 everywhere, on a diagram whose rim
     // is a power of ten times 1, 2 or 5.
-    const CommandResult parsed = run_program({"python3", "-c", R"(
+    const CommandResult parsed = succeeded(run_program({"python3", "-c", R"(
 import math, sys, xml.etree.ElementTree as tree
 root = tree.parse(sys.argv[1]).getroot()
 name = "{http://www.w3.org/2000/svg}"
@@ -179,9 +172,7 @@ assert [len(c) for c in curves] == [359, 359]
 rim = max(float(t.text) for t in root.iter(name + "text") if t.get("font-size") == "11" and "°" not in t.text)
 radii = [math.hypot(x - 360, y - 335) / 300 * rim for x, y in curves[0]]
 print(min(radii), max(radii)))",
-                                              file.string()});
-    INFO(parsed.err);
-    REQUIRE(parsed.exit_code == 0);
+                                                        file.string()}));
     std::istringstream radii(parsed.out);
     double least = 0, most = 0;
     radii >> least >> most;
@@ -259,17 +250,11 @@ TEST_CASE("plot: an impossible diagram is an error with the possible choices, an
          }) {
         std::vector<std::string> words = wrong.words;
         words.insert(words.begin(), "plot");
-        const fs::path folder = scratch_directory();
-        const CommandResult result =
-            run_candela(words, {.input = {}, .environment = {}, .directory = folder});
-        INFO(result.err);
-        CHECK(result.exit_code == 2);
-        CHECK(holds(result.err, wrong.message));
+        const Folder folder;
+        const CommandResult result = expect(folder.run_words(words), 2, {wrong.message});
         CHECK(result.out.empty());
         CHECK(fs::is_empty(folder));
     }
-    const CommandResult unknown = run_candela({"plot", "reflection/phnog"});
-    CHECK(unknown.exit_code == 1);
-    CHECK(holds(unknown.err, "did you mean 'phong'"));
-    CHECK(run_candela({"plot", "phong", "-o", "/nonexistent/lobe.svg"}).exit_code == 1);
+    expect(run_candela({"plot", "reflection/phnog"}), 1, {"did you mean 'phong'"});
+    expect(run_candela({"plot", "phong", "-o", "/nonexistent/lobe.svg"}), 1);
 }

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 import candela.core;
 
@@ -14,8 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 const std::string k_hostile = "\x1b]0;x\x07\x1b[2J\xc2\x9b\xe2\x80\xae\x7f";
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 bool is_printable(const std::string& text) {
     return candela::printable(text, candela::LineBreaks::kept) == text;
@@ -92,9 +92,7 @@ TEST_CASE("a hostile file name, option, verb or plugin name is shown, not obeyed
 TEST_CASE("check prints characters that hide or reverse text as escapes, also in JSON") {
     const std::string file =
         write_file(scratch_directory() / "scene.toml", scene("\"\\u202eabc\\u001b[31m\"")).string();
-    const CommandResult text = run_candela({"check", file});
-    CHECK(text.exit_code == 0);
-    CHECK(holds(text.out, "'\\u{202e}abc\\u{1b}[31m'"));
+    const CommandResult text = expect_out(run_candela({"check", file}), 0, {"'\\u{202e}abc\\u{1b}[31m'"});
     CHECK(is_printable(text.out));
     const CommandResult json = run_candela({"check", "--json", file});
     CHECK(is_printable(json.out));
@@ -107,8 +105,7 @@ TEST_CASE("check --print keeps names complete, even long ones and those with con
     const std::string name = "\"" + std::string(300, 'n') + "\\u0001\\u202e\\t\\n'\\\"\xc3\xa9\"";
     const fs::path d = scratch_directory();
     const std::string file = write_file(d / "scene.toml", scene(name)).string();
-    const CommandResult printed = run_candela({"check", "--print", file});
-    REQUIRE(printed.exit_code == 0);
+    const CommandResult printed = succeeded(run_candela({"check", "--print", file}));
     CHECK(is_printable(printed.out));
     const std::string again = write_file(d / "again.toml", printed.out).string();
     CHECK(run_candela({"check", "--print", again}).out == printed.out);
@@ -163,9 +160,7 @@ model = "phong"
 model = "phong"
 )")
                                  .string();
-    const CommandResult result = run_candela({"check", file});
-    INFO(result.err);
-    CHECK(result.exit_code == 3);
+    const CommandResult result = expect(run_candela({"check", file}), 3);
     for (const char* const part :
          {":3:12: error: the observer is not inside the room", ":4:11: error: 'look_at' is a string",
           ":5:7: error: 'fov'", ":8:9: error: 'color'", ":9:13: error: 'intensity'",
@@ -185,11 +180,8 @@ TEST_CASE("a file elsewhere that is not part of a scene is never quoted") {
         return run_candela({"check", (d / "scene" / "scene.toml").string()});
     };
     for (const fs::path& file : {secret, settings, fs::path("../elsewhere/secret")}) {
-        const CommandResult result = check(file.string());
-        INFO(result.err);
-        CHECK(result.exit_code == 3);
-        CHECK(holds(result.err, "scene.toml:1:12: error: '"));
-        CHECK(holds(result.err, "is not part of a scene"));
+        const CommandResult result =
+            expect(check(file.string()), 3, {"scene.toml:1:12: error: '", "is not part of a scene"});
         CHECK_FALSE(holds(result.err, "hash"));
         CHECK_FALSE(holds(result.err, "password"));
     }
@@ -203,7 +195,7 @@ TEST_CASE("a file elsewhere that is not part of a scene is never quoted") {
 
 TEST_CASE("includes, environments and meshes must be regular files, and no command waits for a pipe") {
     const fs::path d = scratch_directory();
-    REQUIRE(run_program({"mkfifo", (d / "pipe").string()}).exit_code == 0);
+    succeeded(run_program({"mkfifo", (d / "pipe").string()}));
     const auto check = [&](const std::string& more) {
         write_file(d / "scene.toml", more);
         return run_candela({"check", (d / "scene.toml").string()});

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -28,14 +30,6 @@ std::string scene(const std::string& more) {
            "= 16\n"
            "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n" +
            more;
-}
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-int count(const std::string& text, const std::string& part) {
-    int found = 0;
-    for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++found;
-    return found;
 }
 
 /// A scene in a file, and a name for its picture.
@@ -61,13 +55,11 @@ struct Files {
 TEST_CASE("R13: without anybody to ask, the error names --defaults, which means yes") {
     const Files files(scene(k_box));
     const CommandResult nobody =
-        run_candela(files.render(), {.input = "y\n", .environment = {}, .directory = {}});
-    CHECK(nobody.exit_code == 3);
-    CHECK(holds(nobody.err, "the scene names no shading or reflection model"));
-    CHECK(holds(nobody.err, "--defaults"));
+        expect(run_candela(files.render(), {.input = "y\n", .environment = {}, .directory = {}}), 3,
+               {"the scene names no shading or reflection model", "--defaults"});
     CHECK_FALSE(holds(nobody.err, "[Y/n]"));
     CHECK_FALSE(files.take_image());
-    CHECK(run_candela(files.render({"--defaults"})).exit_code == 0);
+    expect(run_candela(files.render({"--defaults"})), 0);
     CHECK(files.take_image());
 }
 
@@ -79,14 +71,13 @@ TEST_CASE(
         INFO("answer " << yes);
         const CommandResult result = talk_to_candela(files.render(), {{k_both, yes}});
         CHECK(result.exit_code == 0);
-        CHECK(count(result.out, "[Y/n]") == 1);
+        CHECK(count_of(result.out, "[Y/n]") == 1);
         CHECK(files.take_image());
     }
     for (const char* const no : {"n\n", "N\n", "no\n", "NO\n"}) {
         INFO("answer " << no);
-        const CommandResult result = talk_to_candela(files.render(), {{k_both, no}});
-        CHECK(result.exit_code == 3);
-        CHECK(holds(result.out, "--shading and --reflection name others"));
+        expect_out(talk_to_candela(files.render(), {{k_both, no}}), 3,
+                   {"--shading and --reflection name others"});
         CHECK_FALSE(files.take_image());
     }
 }
@@ -94,9 +85,7 @@ TEST_CASE(
 TEST_CASE("R13: the question is repeated after an invalid answer") {
     const Files files(scene(k_box));
     const std::string again = std::string("Please answer y or n. ") + k_both;
-    const CommandResult yes =
-        talk_to_candela(files.render(), {{k_both, "perhaps\n"}, {again, "yn\n"}, {again, "y\n"}});
-    CHECK(yes.exit_code == 0);
+    expect(talk_to_candela(files.render(), {{k_both, "perhaps\n"}, {again, "yn\n"}, {again, "y\n"}}), 0);
     CHECK(files.take_image());
     CHECK(talk_to_candela(files.render(), {{k_both, "perhaps\n"}, {again, "n\n"}}).exit_code == 3);
     CHECK_FALSE(files.take_image());
@@ -104,9 +93,7 @@ TEST_CASE("R13: the question is repeated after an invalid answer") {
 
 TEST_CASE("R13: Ctrl-D means no, and Ctrl-C ends the command; neither makes a picture") {
     const Files files(scene(k_box));
-    const CommandResult end = talk_to_candela(files.render(), {{k_both, "\x04"}});
-    CHECK(end.exit_code == 3);
-    CHECK(holds(end.out, "--defaults"));
+    expect_out(talk_to_candela(files.render(), {{k_both, "\x04"}}), 3, {"--defaults"});
     CHECK_FALSE(files.take_image());
     CHECK(talk_to_candela(files.render(), {{k_both, "\x03"}}).exit_code == 128 + SIGINT);
     CHECK_FALSE(files.take_image());
@@ -118,15 +105,13 @@ TEST_CASE("R13: one question, however many objects need an answer") {
         scene(std::string(k_box) + k_ball + "[[object]]\ntype = \"torus\"\nposition = [2, 0, 0]\n"));
     const CommandResult result = talk_to_candela(files.render(), {{k_both, "\n"}});
     CHECK(result.exit_code == 0);
-    CHECK(count(result.out, "[Y/n]") == 1);
+    CHECK(count_of(result.out, "[Y/n]") == 1);
 }
 
 TEST_CASE("R13: only the missing models are asked for") {
     const auto ask = [](const Files& files, const std::vector<std::string>& flags, const char* question) {
-        const CommandResult result = talk_to_candela(files.render(flags), {{question, "\n"}});
-        INFO(result.out);
-        CHECK(result.exit_code == 0);
-        CHECK(count(result.out, "[Y/n]") == 1);
+        const CommandResult result = expect(talk_to_candela(files.render(flags), {{question, "\n"}}), 0);
+        CHECK(count_of(result.out, "[Y/n]") == 1);
         CHECK(files.take_image());
     };
     const Files neither(scene(k_box));
@@ -143,9 +128,7 @@ TEST_CASE("R13: only the missing models are asked for") {
 TEST_CASE("R13: there is no question if nothing is missing or the answer is known") {
     const std::string named = "shading = \"flat\"\nreflection = \"lambert\"\n";
     const auto silent = [](const Files& files, const std::vector<std::string>& flags) {
-        const CommandResult result = talk_to_candela(files.render(flags), {});
-        INFO(result.out);
-        CHECK(result.exit_code == 0);
+        const CommandResult result = expect(talk_to_candela(files.render(flags), {}), 0);
         CHECK_FALSE(holds(result.out, "[Y/n]"));
         CHECK(files.take_image());
     };
@@ -166,10 +149,9 @@ TEST_CASE("R13: a question needs terminals on stdin and stderr, but not on stdou
         CHECK(holds(result.out + result.err, "--defaults"));
         CHECK_FALSE(holds(result.out + result.err, "[Y/n]"));
     }
-    const CommandResult piped = talk_to_candela({"render", files.scene_file, "-o", "-"}, {{k_both, "y\n"}},
-                                                {}, {.in = true, .out = false, .err = true});
-    CHECK(piped.exit_code == 0);
-    CHECK(holds(piped.out, "\x89PNG"));
+    expect_out(talk_to_candela({"render", files.scene_file, "-o", "-"}, {{k_both, "y\n"}}, {},
+                               {.in = true, .out = false, .err = true}),
+               0, {"\x89PNG"});
 }
 
 TEST_CASE("R13: check never waits, and reports what is missing wherever it runs") {
@@ -215,10 +197,7 @@ TEST_CASE("a long render shows its progress only on a terminal", "[whole]") {
         files.render({"--set", "observer.fov=16", "--width", "1400", "--height", "1400", "--threads", "1"});
     const CommandSetup slow{
         .input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "baseline"}}, .directory = {}};
-    const CommandResult seen = talk_to_candela(words, {}, slow);
-    CHECK(seen.exit_code == 0);
-    CHECK(holds(seen.out, "\rrendering ["));
-    CHECK(holds(seen.out, " %"));
+    const CommandResult seen = expect_out(talk_to_candela(words, {}, slow), 0, {"\rrendering [", " %"});
     // The bar is erased before the last line.
     CHECK(holds(seen.out, "\r\x1b[K" + files.image().string() + ": 1400 x 1400"));
     const CommandResult unseen = run_candela(words, slow);

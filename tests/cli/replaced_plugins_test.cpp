@@ -5,12 +5,11 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A folder with a copy of a shipped plugin.
 struct Copy {

@@ -8,6 +8,9 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 import candela.core;
 
@@ -20,9 +23,7 @@ const std::string k_scene =
     "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n"
     "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n";
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-CommandResult in(const fs::path& directory, const std::vector<std::string>& words,
+CommandResult in(const Folder& directory, const std::vector<std::string>& words,
                  const std::string& input = "", const std::string& columns = "") {
     CommandSetup setup{.input = input, .environment = {}, .directory = directory};
     if (!columns.empty()) setup.environment.emplace_back("COLUMNS", columns);
@@ -40,31 +41,26 @@ std::size_t widest_line(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a scene can come from standard input, with paths relative to the current folder") {
-    const fs::path d = scratch_directory();
-    write_file(d / "cube.toml", "[[object]]\ntype = \"cube\"\n");
+    const Folder d;
+    d.write("cube.toml", "[[object]]\ntype = \"cube\"\n");
     const std::string scene = "include = [\"cube.toml\"]\n" + k_scene;
     for (const char* const name : {"-", "/dev/stdin", "/dev/fd/0"}) {
         INFO(name);
-        const CommandResult checked = in(d, {"check", name}, scene);
-        INFO(checked.err);
-        CHECK(checked.exit_code == 0);
-        CHECK(holds(checked.out, "1, 12 triangles"));
+        expect_out(in(d, {"check", name}, scene), 0, {"1, 12 triangles"});
         CHECK(in(d, {"render", name, "-o", "a.ppm"}, scene).exit_code == 0);
         CHECK(fs::remove(d / "a.ppm"));
     }
-    const CommandResult piped = run_program({"sh", "-c", "cat | " CANDELA_TEST_COMMAND " check -"},
-                                            {.input = scene, .environment = {}, .directory = d});
-    CHECK(piped.exit_code == 0);
+    expect(run_program({"sh", "-c", "cat | " CANDELA_TEST_COMMAND " check -"},
+                       {.input = scene, .environment = {}, .directory = d}),
+           0);
     // A part of the scene is in a file, another comes from the pipe.
     CHECK(holds(in(d, {"check", "cube.toml", "-"}, k_scene).out, "1, 12 triangles"));
 }
 
 TEST_CASE("errors in a scene from a pipe have their line") {
-    const fs::path d = scratch_directory();
-    const CommandResult wrong = in(d, {"check", "-"}, k_scene + "[[object]]\ntype = \"cub\"\n");
-    CHECK(wrong.exit_code == 3);
-    CHECK(holds(wrong.err, "standard input:16:8: error: no shape plugin is called 'cub'"));
-    CHECK(holds(wrong.err, "   16 | type = \"cub\""));
+    const Folder d;
+    expect(in(d, {"check", "-"}, k_scene + "[[object]]\ntype = \"cub\"\n"), 3,
+           {"standard input:16:8: error: no shape plugin is called 'cub'", "   16 | type = \"cub\""});
     CHECK(holds(in(d, {"check", "-"}, "").err, "standard input:1:1: error: the file is empty"));
     CHECK(holds(in(d, {"check", "-", "-"}, k_scene).err,
                 "standard input: error: 'standard input' is read twice"));
@@ -73,68 +69,63 @@ TEST_CASE("errors in a scene from a pipe have their line") {
 }
 
 TEST_CASE("with --no-clobber, an existing picture stays, and that is an error") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     CHECK(in(d, {"render", "-", "-o", "a.ppm", "--no-clobber"}, k_scene).exit_code == 0);
-    write_file(d / "a.ppm", "mine");
-    const CommandResult again = in(d, {"render", "-", "-o", "a.ppm", "--no-clobber"}, k_scene);
-    CHECK(again.exit_code == 1);
-    CHECK(holds(again.err, "'a.ppm' already exists"));
-    CHECK(read_file(d / "a.ppm") == "mine");
+    d.write("a.ppm", "mine");
+    expect(in(d, {"render", "-", "-o", "a.ppm", "--no-clobber"}, k_scene), 1, {"'a.ppm' already exists"});
+    CHECK(d.read("a.ppm") == "mine");
     CHECK(in(d, {"render", "-", "-o", "a.ppm"}, k_scene).exit_code == 0);
 }
 
 TEST_CASE("a picture never overwrites its inputs, under whatever name") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     const std::string sky = "P6\n1 1\n255\nabc";
-    write_file(d / "sky.ppm", sky);
-    write_file(d / "part.ppm", "[[light]]\ntype = \"ambient\"\n");
-    write_file(d / "mesh.ppm", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    d.write("sky.ppm", sky);
+    d.write("part.ppm", "[[light]]\ntype = \"ambient\"\n");
+    d.write("mesh.ppm", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     fs::copy_file(d / "mesh.ppm", d / "mesh.obj");
     fs::remove(d / "mesh.ppm");
     fs::create_symlink("mesh.obj", d / "mesh.ppm");
     fs::create_symlink("sky.ppm", d / "link.ppm");
     const std::string scene =
         "include = [\"part.ppm\"]\n" + k_scene + "[[object]]\ntype = \"mesh\"\nfile = \"mesh.obj\"\n";
-    const fs::path file = write_file(d / "scene.ppm", scene + "[image2]\n");
+    const fs::path file = d.write("scene.ppm", scene + "[image2]\n");
     write_file(
         file,
         "include = [\"part.ppm\"]\nversion = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
         "[image]\nwidth = 16\nheight = 16\nenvironment = \"sky.ppm\"\n[shading]\nmodel = \"phong\"\n"
         "[reflection]\nmodel = \"phong\"\n[[object]]\ntype = \"mesh\"\nfile = \"mesh.obj\"\n");
     for (const char* const name : {"sky.ppm", "./sky.ppm", "link.ppm", "part.ppm", "mesh.ppm", "scene.ppm"}) {
-        const std::string before = read_file(d / name);
+        const std::string before = d.read(name);
         const CommandResult result = in(d, {"render", "scene.ppm", "-o", name});
         INFO(name << ": " << result.err);
         CHECK(result.exit_code == 2);
         CHECK(holds(result.err, "is one of the files that the scene is made from"));
-        CHECK(read_file(d / name) == before);
+        CHECK(d.read(name) == before);
     }
     CHECK(in(d, {"render", "scene.ppm", "-o", "other.ppm"}).exit_code == 0);
 }
 
 TEST_CASE("with --quiet, only errors are printed") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     const CommandResult silent = in(d, {"render", "-", "-o", "a.ppm", "--quiet", "--verbose"}, k_scene);
     CHECK(silent.exit_code == 0);
     CHECK(silent.out + silent.err == "");
     CHECK(in(d, {"check", "-", "-q"}, k_scene).out.empty());
     CHECK(in(d, {"new", "-q"}).err.empty());
-    const CommandResult wrong = in(d, {"check", "-", "-q"}, k_scene + "[[object]]\ntype = \"cub\"\n");
-    CHECK(wrong.exit_code == 3);
-    CHECK(holds(wrong.err, "no shape plugin is called 'cub'"));
+    const CommandResult wrong = expect(in(d, {"check", "-", "-q"}, k_scene + "[[object]]\ntype = \"cub\"\n"),
+                                       3, {"no shape plugin is called 'cub'"});
     // The scene has no objects, which otherwise causes a warning.
     CHECK(holds(in(d, {"check", "-"}, k_scene).err, "warning"));
     CHECK_FALSE(holds(wrong.err, "warning"));
 }
 
 TEST_CASE("a misspelt option is also recognised with its value") {
-    const CommandResult result = run_candela({"render", "--widht=100"});
-    CHECK(result.exit_code == 2);
-    CHECK(holds(result.err, "unknown option '--widht'; did you mean '--width'?"));
+    expect(run_candela({"render", "--widht=100"}), 2, {"unknown option '--widht'; did you mean '--width'?"});
 }
 
 TEST_CASE("list, describe and help fit the width in COLUMNS, or 80 columns") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"list"},
                                                {"describe", "light/spot"},
@@ -164,10 +155,10 @@ TEST_CASE("describe gives the allowed values, their unit, and whether they are r
 }
 
 TEST_CASE("Ctrl-C at a question leaves the shell's prompt a line of its own") {
-    const fs::path d = scratch_directory();
-    const std::string file = write_file(d / "scene.toml",
-                                        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
-                                        "0]\n[[object]]\ntype = \"cube\"\n")
+    const Folder d;
+    const std::string file = d.write("scene.toml",
+                                     "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
+                                     "0]\n[[object]]\ntype = \"cube\"\n")
                                  .string();
     const CommandResult result =
         talk_to_candela({"render", file, "-o", (d / "a.png").string()}, {{"[Y/n] ", "\x03"}});
@@ -176,19 +167,16 @@ TEST_CASE("Ctrl-C at a question leaves the shell's prompt a line of its own") {
 }
 
 TEST_CASE("the thread library prints nothing if there are more threads than cores") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     const CommandResult result = in(d, {"render", "-", "-o", "a.ppm", "--threads", "33", "-q"}, k_scene);
     CHECK(result.exit_code == 0);
     CHECK(result.err.empty());
 }
 
 TEST_CASE("an object too far away is an error in the scene") {
-    const fs::path d = scratch_directory();
-    const CommandResult result =
-        in(d, {"check", "-"},
-           k_scene + "[[object]]\nname = \"far\"\ntype = \"cube\"\nposition = [0, 2e9, 0]\n" +
-               "[room]\nwidth = 1e10\nheight = 1e10\ndepth = 1e10\n");
-    INFO(result.err);
-    CHECK(result.exit_code == 3);
-    CHECK(holds(result.err, "standard input:15:1: error: object 'far': vertex 0 at "));
+    const Folder d;
+    expect(in(d, {"check", "-"},
+              k_scene + "[[object]]\nname = \"far\"\ntype = \"cube\"\nposition = [0, 2e9, 0]\n" +
+                  "[room]\nwidth = 1e10\nheight = 1e10\ndepth = 1e10\n"),
+           3, {"standard input:15:1: error: object 'far': vertex 0 at "});
 }

@@ -15,6 +15,9 @@
 
 #include "support/box_scene.h"
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -31,25 +34,21 @@ fps = 12
 
 constexpr const char* k_job = "frames/.candela/jobs/%04d.png";
 
-fs::path with_scene() {
-    const fs::path directory = scratch_directory();
-    write_file(directory / "scene.toml", scene_text());
+Folder with_scene() {
+    const Folder directory;
+    directory.write("scene.toml", scene_text());
     return directory;
 }
 
-CommandResult candela(const fs::path& directory, const std::vector<std::string>& words,
+CommandResult candela(const Folder& directory, const std::vector<std::string>& words,
                       const std::string& path = "") {
     CommandSetup setup{.input = "", .environment = {}, .directory = directory};
     if (!path.empty()) setup.environment.emplace_back("PATH", path);
     return run_candela(words, setup);
 }
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
-json status_of(const fs::path& directory) {
-    const CommandResult result = candela(directory, {"status", "frames", "--json"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+json status_of(const Folder& directory) {
+    const CommandResult result = succeeded(candela(directory, {"status", "frames", "--json"}));
     return json::parse(result.out).at(0);
 }
 
@@ -64,7 +63,7 @@ std::string shell(const std::string& command, const fs::path& directory,
 }
 
 /// The files that one process makes of the same scene, frame by frame.
-void check_frames(const fs::path& directory, int count = 12) {
+void check_frames(const Folder& directory, int count = 12) {
     REQUIRE(candela(directory, {"animate", "scene.toml", "-o", "alone/%04d.png"}).exit_code == 0);
     for (int i = 0; i < count; ++i) {
         const std::string name = (i < 10 ? "000" : "00") + std::to_string(i) + ".png";
@@ -73,15 +72,8 @@ void check_frames(const fs::path& directory, int count = 12) {
     }
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-    std::vector<std::string> lines;
-    for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
-        lines.push_back(text.substr(begin, end - begin));
-    return lines;
-}
-
 /// A folder with an `sbatch` that records its arguments and input, and numbers jobs from 41 on.
-std::string with_queue(const fs::path& directory) {
+std::string with_queue(const Folder& directory) {
     const fs::path folder = directory / "bin";
     fs::create_directories(folder);
     write_file(folder / "sbatch", R"(#!/bin/sh
@@ -102,7 +94,7 @@ void wait_until(const Condition& is_so) {
 }
 
 /// Names that exist only while a file is being written.
-std::size_t unfinished_in(const fs::path& folder) {
+std::size_t unfinished_in(const Folder& folder) {
     return static_cast<std::size_t>(
         std::count_if(fs::recursive_directory_iterator(folder), fs::recursive_directory_iterator(),
                       [](const fs::directory_entry& entry) {
@@ -113,7 +105,7 @@ std::size_t unfinished_in(const fs::path& folder) {
 }  // namespace
 
 TEST_CASE("submit on this machine makes the same frames as animate, and status reports them") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     const CommandResult result = candela(directory, {"submit", "scene.toml", "--jobs", "3", "--chunk", "5"});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
@@ -129,12 +121,10 @@ TEST_CASE("submit on this machine makes the same frames as animate, and status r
 }
 
 TEST_CASE("a failed task does not affect the others, says why, and is finished by the same command") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     fs::create_directories(directory / "frames/0007.png");
-    CommandResult result = candela(directory, {"submit", "scene.toml", "--chunk", "4", "--jobs", "2"});
-    CHECK(result.exit_code == 1);
-    CHECK(holds(result.err, "task 4..7: "));
-    CHECK(holds(result.err, "1 of 3 tasks failed"));
+    CommandResult result = expect(candela(directory, {"submit", "scene.toml", "--chunk", "4", "--jobs", "2"}),
+                                  1, {"task 4..7: ", "1 of 3 tasks failed"});
     json status = status_of(directory);
     CHECK(status["done"] == 2);
     CHECK(status["failed"] == 1);
@@ -153,11 +143,9 @@ TEST_CASE("a failed task does not affect the others, says why, and is finished b
 }
 
 TEST_CASE("the command lines printed by submit do the job in any order, from any folder") {
-    const fs::path directory = with_scene();
-    const CommandResult result =
-        candela(directory, {"submit", "scene.toml", "--engine", "print", "--chunk", "5", "--step", "2"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    const Folder directory = with_scene();
+    const CommandResult result = succeeded(
+        candela(directory, {"submit", "scene.toml", "--engine", "print", "--chunk", "5", "--step", "2"}));
     std::vector<std::string> lines = lines_of(result.out);
     REQUIRE(lines.size() == 2);
     CHECK(read_file(directory / k_job / "tasks") == result.out);
@@ -165,12 +153,12 @@ TEST_CASE("the command lines printed by submit do the job in any order, from any
     std::ranges::reverse(lines);
     for (const std::string& line : lines) shell(line, "/");
     CHECK(status_of(directory)["done"] == 2);
-    CHECK(fs::exists(directory / "frames/0010.png"));
-    CHECK_FALSE(fs::exists(directory / "frames/0001.png"));
+    CHECK(directory.has("frames/0010.png"));
+    CHECK_FALSE(directory.has("frames/0001.png"));
 }
 
 TEST_CASE("Slurm gets an array of tasks and a last task after it, whose scripts do the job") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     const std::string queue = with_queue(directory);
     const std::vector<std::string> submit = {"submit",
                                              "scene.toml",
@@ -189,14 +177,12 @@ TEST_CASE("Slurm gets an array of tasks and a last task after it, whose scripts 
         return candela(directory, words, queue);
     }();
     CHECK(shown.exit_code == 0);
-    CHECK_FALSE(fs::exists(directory / "submitted"));
-    CHECK_FALSE(fs::exists(directory / "frames"));
+    CHECK_FALSE(directory.has("submitted"));
+    CHECK_FALSE(directory.has("frames"));
 
-    const CommandResult result = candela(directory, submit, queue);
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(candela(directory, submit, queue));
     CHECK(result.out == "41\n");
-    const std::string script = read_file(directory / "job-41.sh");
+    const std::string script = directory.read("job-41.sh");
     CHECK(holds(shown.out, script));
     CHECK(holds(script, "\n#SBATCH --array=1-3\n"));
     CHECK(holds(script, "\n#SBATCH --cpus-per-task=3\n"));
@@ -210,29 +196,27 @@ TEST_CASE("Slurm gets an array of tasks and a last task after it, whose scripts 
     // Only the unfinished tasks are submitted again.
     fs::remove(directory / "frames/0006.png");
     REQUIRE(candela(directory, submit, queue).exit_code == 0);
-    CHECK(holds(read_file(directory / "job-42.sh"), "\n#SBATCH --array=2\n"));
+    CHECK(holds(directory.read("job-42.sh"), "\n#SBATCH --array=2\n"));
 }
 
 TEST_CASE("the film is the last task, which Slurm starts once all others have succeeded") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     const std::string queue = with_queue(directory);
-    write_file(directory / "bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho film >\"$last\"\n");
+    directory.write("bin/ffmpeg", "#!/bin/sh\nfor last; do :; done\necho film >\"$last\"\n");
     ::chmod((directory / "bin/ffmpeg").c_str(), 0755);
     const std::vector<std::string> submit = {"submit", "scene.toml",      "--engine", "slurm",
                                              "-o",     "frames/%04d.png", "-o",       "film.mp4"};
-    const CommandResult result = candela(directory, submit, queue);
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(candela(directory, submit, queue));
     CHECK(result.out == "41\n42\n");
-    CHECK(holds(read_file(directory / "submitted"), "--dependency=afterok:41 --kill-on-invalid-dep=yes"));
+    CHECK(holds(directory.read("submitted"), "--dependency=afterok:41 --kill-on-invalid-dep=yes"));
     CHECK(status_of(directory)["last"]["state"] == "waiting");
     shell("sh job-42.sh", directory, {{"PATH", queue}});
-    CHECK(read_file(directory / "film.mp4") == "film\n");
+    CHECK(directory.read("film.mp4") == "film\n");
     CHECK(status_of(directory)["last"]["state"] == "done");
 }
 
 TEST_CASE("a task is running while its process exists, and failed if that has ended without a report") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     REQUIRE(candela(directory, {"submit", "scene.toml", "--engine", "print", "--chunk", "12"}).exit_code ==
             0);
     RunningProgram task({CANDELA_TEST_COMMAND, "--task", directory / k_job / "0..11.json", "animate",
@@ -254,11 +238,11 @@ TEST_CASE("a task is running while its process exists, and failed if that has en
 }
 
 TEST_CASE("frames made from other inputs than were submitted are not counted as done") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     REQUIRE(candela(directory, {"submit", "scene.toml"}).exit_code == 0);
     std::string scene = scene_text();
     scene.replace(scene.find("9.0"), 3, "8.0");
-    write_file(directory / "scene.toml", scene);
+    directory.write("scene.toml", scene);
     REQUIRE(candela(directory, {"animate", "scene.toml", "--frames", "3..4"}).exit_code == 0);
     const json status = status_of(directory);
     CHECK(status["done"] == 1);
@@ -268,7 +252,7 @@ TEST_CASE("frames made from other inputs than were submitted are not counted as 
 }
 
 TEST_CASE("twenty kills at any moment leave a job that the same command completes") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     std::minstd_rand random(19);
     const std::vector<std::string> submit = {
         CANDELA_TEST_COMMAND, "submit", "scene.toml", "--jobs", "2", "--chunk", "2"};
@@ -286,17 +270,14 @@ TEST_CASE("twenty kills at any moment leave a job that the same command complete
         static_cast<void>(job.wait());
         if (fs::exists(directory / k_job / "plan.json")) CHECK(status_of(directory)["tasks"].size() == 6);
     }
-    const CommandResult result =
-        run_program(submit, {.input = "", .environment = {}, .directory = directory});
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+    expect(run_program(submit, {.input = "", .environment = {}, .directory = directory}), 0);
     CHECK(status_of(directory)["done"] == 6);
     check_frames(directory);
     CHECK(unfinished_in(directory) == 0);
 }
 
 TEST_CASE("submit, told to end, ends its tasks") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     RunningProgram job({CANDELA_TEST_COMMAND, "submit", "scene.toml", "--width", "4000", "--height", "4000",
                         "--jobs", "2", "--chunk", "6"},
                        {.input = "", .environment = {}, .directory = directory});
@@ -311,12 +292,9 @@ TEST_CASE("submit, told to end, ends its tasks") {
 }
 
 TEST_CASE("submit and status explain what they cannot do") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& part) {
-        const CommandResult result = candela(directory, words, "/nowhere");
-        INFO(result.err);
-        CHECK(result.exit_code == code);
-        CHECK(holds(result.err, part));
+        expect(candela(directory, words, "/nowhere"), code, {part});
     };
     refused({"submit"}, 2, "needs a scene file");
     refused({"submit", "scene.toml", "--engine", "slum"}, 2, "did you mean 'slurm'?");
@@ -330,6 +308,6 @@ TEST_CASE("submit and status explain what they cannot do") {
     refused({"submit", "scene.toml", "--set", "object.box.position=[99, 0, 0]"}, 3,
             "object 'box' is not wholly inside the room");
     refused({"status", "nowhere"}, 1, "no job was submitted for 'nowhere'");
-    write_file(directory / "frames/.candela/jobs/x/plan.json", "{}");
+    directory.write("frames/.candela/jobs/x/plan.json", "{}");
     refused({"status", "frames"}, 1, "is not a valid job plan");
 }

@@ -5,6 +5,9 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace {
 
@@ -15,14 +18,13 @@ struct Case {
 };
 
 void check_all(const std::vector<Case>& cases, const std::string& before = "") {
-    const std::filesystem::path directory = scratch_directory();
+    const Folder directory;
     for (const Case& c : cases) {
-        write_file(directory / "a.toml", before + c.text);
-        const CommandResult result =
-            run_candela({"check", "a.toml"}, {.input = "", .environment = {}, .directory = directory});
+        directory.write("a.toml", before + c.text);
+        const CommandResult result = directory.run("check a.toml");
         INFO(c.text << "\n" << result.err);
         CHECK(result.exit_code == 3);
-        CHECK(result.err.find("a.toml:" + c.place + ": error: " + c.message) != std::string::npos);
+        CHECK(holds(result.err, "a.toml:" + c.place + ": error: " + c.message));
     }
 }
 
@@ -97,31 +99,30 @@ TEST_CASE("the error about invalid UTF-8 is at the first invalid character") {
 }
 
 TEST_CASE("UTF-16 is named; a UTF-8 byte order mark is accepted and takes no column") {
-    const std::filesystem::path directory = scratch_directory();
+    const Folder directory;
     const auto checked = [&](const std::string& text) {
-        const std::string file = write_file(directory / "a.toml", text).string();
+        const std::string file = directory.write("a.toml", text).string();
         return run_candela({"check", file}).err;
     };
-    CHECK(checked(std::string("\xff\xfe"
-                              "a\0=\0001\0",
-                              8))
-              .find("the file's text is UTF-16; a scene is UTF-8") != std::string::npos);
-    CHECK(checked("\xef\xbb\xbf"
-                  "a = b\n")
-              .find("a.toml:1:5: error: 'b' is not a value") != std::string::npos);
+    CHECK(holds(checked(std::string("\xff\xfe"
+                                    "a\0=\0001\0",
+                                    8)),
+                "the file's text is UTF-16; a scene is UTF-8"));
+    CHECK(holds(checked("\xef\xbb\xbf"
+                        "a = b\n"),
+                "a.toml:1:5: error: 'b' is not a value"));
 }
 
 TEST_CASE("letters of all alphabets are allowed in texts and comments, even after a continued line") {
-    const std::filesystem::path directory = scratch_directory();
+    const Folder directory;
     const std::string file =
-        write_file(
-            directory / "a.toml",
-            "version = 1 # \xd1\x81\xd1\x86\xd0\xb5\xd0\xbd\xd0\xb0\n[observer]\nposition = [0, 0, 4]\n"
-            "look_at = [0, 0, 0]\n[[light]]\ntype = \"ambient\"\nname = \"\"\"\\\n   \xc3\xa9t\xc3\xa9 "
-            "\\\n\n  "
-            "\xe5\x85\x89\"\"\"\n")
+        directory
+            .write(
+                "a.toml",
+                "version = 1 # \xd1\x81\xd1\x86\xd0\xb5\xd0\xbd\xd0\xb0\n[observer]\nposition = [0, 0, 4]\n"
+                "look_at = [0, 0, 0]\n[[light]]\ntype = \"ambient\"\nname = \"\"\"\\\n   \xc3\xa9t\xc3\xa9 "
+                "\\\n\n  "
+                "\xe5\x85\x89\"\"\"\n")
             .string();
-    const CommandResult result = run_candela({"check", file});
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+    expect(run_candela({"check", file}), 0);
 }

@@ -56,8 +56,7 @@ TEST_CASE("a texture that cannot be read as a picture is one failure that names 
     write_file(d / "short.ppm", k_image.substr(0, k_image.size() - 1));
     write_file(d / "none.pfm",
                std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\xc0\x7f", 4) + std::string(8, '\0'));
-    REQUIRE(run_candela({"render", "--width=16", "--height=8", "-o", (d / "whole.png").string()}).exit_code ==
-            0);
+    succeeded(run_candela({"render", "--width=16", "--height=8", "-o", (d / "whole.png").string()}));
     const std::string png = read_file(d / "whole.png");
     const auto refused = [&](const std::string& file, const std::string& reason) {
         const CommandResult result = render("color_texture = \"" + file + "\"", d);

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/folder.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 /// A scene with one more line in one of its tables, which is identified by the preceding text.
 std::string scene_with(const std::string& table, const std::string& line) {
@@ -121,19 +122,16 @@ TEST_CASE("a colour of zeros and ones causes a warning with its values in 0 to 2
         CHECK_FALSE(holds(checked(scene_with("[[object]]", fine)).err, "almost black"));
     // Values between two keys were written by nobody.
     const CommandResult film =
-        checked(scene_with("[[object]]", "color = [2, 2, 2]") +
-                "[animation]\nframes = 4\nfps = 1\n[[animation.track]]\n"
-                "path = \"object.ball.color\"\nkeys = [[0, [0, 0, 0]], [3, [3, 3, 3]]]\n");
-    INFO(film.err);
-    CHECK(film.exit_code == 0);
+        expect(checked(scene_with("[[object]]", "color = [2, 2, 2]") +
+                       "[animation]\nframes = 4\nfps = 1\n[[animation.track]]\n"
+                       "path = \"object.ball.color\"\nkeys = [[0, [0, 0, 0]], [3, [3, 3, 3]]]\n"),
+               0);
     CHECK_FALSE(holds(film.err, "almost black"));
 }
 
 TEST_CASE("the error about a light or an observer inside an object says how to allow it") {
-    const CommandResult light = checked(scene_with("[[object]]", "position = [1, 1, 3]"));
-    CHECK(light.exit_code == 3);
-    CHECK(holds(light.err, "is inside object 'ball'"));
-    CHECK(holds(light.err, "encloses = true"));
+    expect(checked(scene_with("[[object]]", "position = [1, 1, 3]")), 3,
+           {"is inside object 'ball'", "encloses = true"});
     const CommandResult observer = checked(scene_with("[[object]]", "position = [0, 0, 4]"));
     CHECK(holds(observer.err, "the observer is inside object 'ball'"));
     CHECK(holds(observer.err, "encloses = true"));
@@ -167,15 +165,12 @@ TEST_CASE("options of other programs are answered with those of the verb") {
         CHECK(result.exit_code == 2);
         CHECK(holds(result.err, typed.hint));
     }
-    CHECK(run_candela({"render", "-h"}).exit_code == 0);
+    expect(run_candela({"render", "-h"}), 0);
 }
 
 TEST_CASE("quiet may be given twice, by a user and by a program") {
-    const fs::path d = scratch_directory();
-    const CommandResult result = run_candela({"render", "-o", "a.png", "-q", "--quiet", "-q"},
-                                             {.input = "", .environment = {}, .directory = d});
-    INFO(result.err);
-    CHECK(result.exit_code == 0);
+    const Folder d;
+    const CommandResult result = expect(d.run("render -o a.png -q --quiet -q"), 0);
     CHECK(result.err.empty());
 }
 

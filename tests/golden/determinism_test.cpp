@@ -5,6 +5,7 @@
 
 #include "support/command.h"
 #include "support/compiled.h"
+#include "support/expect.h"
 #include "support/plugins.h"
 
 namespace {
@@ -127,10 +128,8 @@ TEST_CASE("the command writes the same file with one thread and with eight") {
     for (const char* const extension : {"png", "exr"}) {
         const auto one = directory / ("one." + std::string(extension)),
                    eight = directory / ("eight." + std::string(extension));
-        REQUIRE(run_candela({"render", scene, "--samples", "4", "--threads", "1", "-o", one.string()})
-                    .exit_code == 0);
-        REQUIRE(run_candela({"render", scene, "--samples", "4", "--threads", "8", "-o", eight.string()})
-                    .exit_code == 0);
+        succeeded(run_candela({"render", scene, "--samples", "4", "--threads", "1", "-o", one.string()}));
+        succeeded(run_candela({"render", scene, "--samples", "4", "--threads", "8", "-o", eight.string()}));
         CHECK(read_file(one).size() > 1000);
         CHECK((read_file(one) == read_file(eight)));
     }

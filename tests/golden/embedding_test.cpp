@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "support/text.h"
+
 using candela::embedding::ByteImage;
 using candela::embedding::FloatImage;
 using candela::embedding::Scene;
@@ -97,7 +99,7 @@ TEST_CASE("embedding: an error lists every problem with its place") {
     CHECK(error->problems()[0].column == 13);
     CHECK(error->problems()[0].is_error);
     CHECK(std::string(error->what()).starts_with("wrong.toml:10:13: error: "));
-    CHECK(std::string(error->what()).find("sphere") != std::string::npos);
+    CHECK(holds(std::string(error->what()), "sphere"));
     CHECK_THROWS_AS(Scene({"/there/is/no/such.toml"}, with_plugins()), candela::embedding::Error);
 }
 

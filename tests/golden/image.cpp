@@ -7,6 +7,7 @@
 #include <string>
 
 #include "support/command.h"
+#include "support/expect.h"
 
 namespace {
 
@@ -38,9 +39,7 @@ Image render_floats(const std::filesystem::path& directory, const std::string& s
     const auto pfm = directory / "picture.pfm";
     std::vector<std::string> words = {"render", file.string(), "-o", pfm.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    const CommandResult result = run_candela(words);
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(run_candela(words));
     return read_pfm(pfm);
 }
 

@@ -14,6 +14,7 @@
 
 #include "support/command.h"
 #include "support/compiled.h"
+#include "support/expect.h"
 
 namespace {
 
@@ -100,10 +101,8 @@ TEST_CASE(
         const auto folder = scratch_directory();
         const auto file = write_file(folder / "scene.toml", text);
         const auto picture = folder / "picture.png";
-        const CommandResult rendered = run_candela(
-            {"render", file.string(), "-o", picture.string(), "--width", "96", "--height", "64", "--quiet"});
-        INFO(rendered.err);
-        REQUIRE(rendered.exit_code == 0);
+        succeeded(run_candela(
+            {"render", file.string(), "-o", picture.string(), "--width", "96", "--height", "64", "--quiet"}));
         const Png png = read_png(picture);
         const Compiled scene = compiled(text);
         for (const candela::LightSource& light : scene.source.lights) lights.insert(light.model.name);

@@ -10,6 +10,7 @@
 
 #include "golden/image.h"
 #include "support/command.h"
+#include "support/expect.h"
 
 namespace {
 
@@ -158,10 +159,8 @@ TEST_CASE(
     std::string first;
     for (const char* const threads : {"1", "2", "5"}) {
         const auto file = folder / fmt::format("{}.ppm", threads);
-        const CommandResult result = run_candela(
-            {"render", (folder / "scene.toml").string(), "-o", file.string(), "--threads", threads});
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
+        succeeded(run_candela(
+            {"render", (folder / "scene.toml").string(), "-o", file.string(), "--threads", threads}));
         if (first.empty()) first = read_file(file);
         CHECK(read_file(file) == first);
     }

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -35,14 +37,10 @@ object = [
 ]
 )";
 
-std::ptrdiff_t lines_of(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
-
 void generate(const std::vector<std::string>& arguments) {
     std::vector<std::string> words{"generate"};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    const CommandResult result = run_candela(words);
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(run_candela(words));
 }
 
 /// Compiles with every warning an error, and expects none.
@@ -65,11 +63,10 @@ TEST_CASE(
     const fs::path directory = scratch_directory();
     generate({"--target", "cpp", "-o", directory.string()});
     const std::string source = read_file(directory / "scene.cpp");
-    CHECK(lines_of(source) < 690);
-    CHECK(source.find(read_file(CANDELA_TEST_SOURCE "/plugins/reflection/phong.kernel")) !=
-          std::string::npos);
-    CHECK(source.find(read_file(CANDELA_TEST_SOURCE "/plugins/light/point.kernel")) != std::string::npos);
-    CHECK(source.find("#include \"") == std::string::npos);
+    CHECK(lines_of(source).size() < 690);
+    CHECK(holds(source, read_file(CANDELA_TEST_SOURCE "/plugins/reflection/phong.kernel")));
+    CHECK(holds(source, read_file(CANDELA_TEST_SOURCE "/plugins/light/point.kernel")));
+    CHECK_FALSE(holds(source, "#include \""));
     CHECK(source.find('@') == std::string::npos);
 }
 
@@ -84,11 +81,9 @@ TEST_CASE("generate: -o - prints the file that a target writes, byte for byte, a
     const CommandResult program = run_candela({"generate", "--target", "opengl", "-o", "-"});
     CHECK(program.exit_code == 2);
     CHECK(program.out.empty());
-    CHECK(program.err.find("target/opengl writes") != std::string::npos);
-    CHECK(program.err.find("give a folder") != std::string::npos);
-    const CommandResult built = run_candela({"generate", "--target", "webgl", "-o", "-", "--run"});
-    CHECK(built.exit_code == 2);
-    CHECK(built.err.find("give a folder") != std::string::npos);
+    CHECK(holds(program.err, "target/opengl writes"));
+    CHECK(holds(program.err, "give a folder"));
+    expect(run_candela({"generate", "--target", "webgl", "-o", "-", "--run"}), 2, {"give a folder"});
 }
 
 TEST_CASE(
@@ -102,8 +97,7 @@ TEST_CASE(
         generate(words);
         require_compiles({"g++"}, directory / "scene.cpp", directory / "by-gcc");
         require_compiles({CANDELA_TEST_COMPILER}, directory / "scene.cpp", directory / "by-clang");
-        REQUIRE(run_program({(directory / "by-gcc").string(), (directory / "gcc.ppm").string()}).exit_code ==
-                0);
+        succeeded(run_program({(directory / "by-gcc").string(), (directory / "gcc.ppm").string()}));
         REQUIRE(
             run_program({(directory / "by-clang").string(), (directory / "clang.ppm").string()}).exit_code ==
             0);
@@ -128,9 +122,7 @@ TEST_CASE("generate: the C++ program of a scene with many models runs clean unde
          {std::vector<std::string>{}, {"flat", "ward"}, {"gouraud", "ggx"}, {"derivative", "toon"}}) {
         std::vector<std::string> words{(directory / "scene").string(), (directory / "scene.png").string()};
         words.insert(words.end(), models.begin(), models.end());
-        const CommandResult result = run_program(words);
-        INFO(result.err);
-        CHECK(result.exit_code == 0);
+        expect(run_program(words), 0);
     }
 }
 
@@ -148,8 +140,7 @@ TEST_CASE("generate: scenes without lights, without objects and without both bec
         const fs::path scene = write_file(directory / fmt::format("{}.toml", number++), text);
         generate({scene.string(), "--defaults", "--target", "cpp", "-o", directory.string()});
         require_compiles({"g++"}, directory / "scene.cpp", directory / "scene");
-        CHECK(run_program({(directory / "scene").string(), (directory / "scene.png").string()}).exit_code ==
-              0);
+        expect(run_program({(directory / "scene").string(), (directory / "scene.png").string()}), 0);
         generate({scene.string(), "--defaults", "--target", "webgl", "-o", directory.string()});
     }
 }
@@ -162,7 +153,7 @@ TEST_CASE("generate: --models adds models, and the C++ program switches to them"
     const auto image = [&](const std::vector<std::string>& models) {
         std::vector<std::string> words{(directory / "scene").string(), (directory / "scene.ppm").string()};
         words.insert(words.end(), models.begin(), models.end());
-        REQUIRE(run_program(words).exit_code == 0);
+        succeeded(run_program(words));
         return read_file(directory / "scene.ppm");
     };
     const std::string own = image({});
@@ -189,11 +180,10 @@ TEST_CASE("generate: programs have help, and refuse unknown arguments") {
         setup.directory = directory;
         return run_program(words, setup);
     };
-    const CommandResult help = run("scene", {"--help"});
-    CHECK(help.exit_code == 0);
-    CHECK(help.out.find("scene [PICTURE [SHADING [REFLECTION]]]") != std::string::npos);
-    CHECK(help.out.find("REFLECTION: of all objects: phong, half-lambert") != std::string::npos);
-    CHECK(run("one/scene", {"--help"}).out.find("scene [PICTURE]\n") != std::string::npos);
+    const CommandResult help = expect_out(
+        run("scene", {"--help"}), 0,
+        {"scene [PICTURE [SHADING [REFLECTION]]]", "REFLECTION: of all objects: phong, half-lambert"});
+    CHECK(holds(run("one/scene", {"--help"}).out, "scene [PICTURE]\n"));
     CHECK_FALSE(fs::exists(directory / "--help"));
     struct Mistake {
         std::string program;
@@ -206,10 +196,7 @@ TEST_CASE("generate: programs have help, and refuse unknown arguments") {
                                            {"scene", {"a.ppm", "flat", "phong", "more"}, "'more'"},
                                            {"one/scene", {"a.ppm", "flat"}, "'flat'"}};
     for (const auto& [program, words, complaint] : mistakes) {
-        const CommandResult result = run(program, words);
-        INFO(result.err);
-        CHECK(result.exit_code == 1);
-        CHECK(result.err.find(complaint) != std::string::npos);
+        expect(run(program, words), 1, {complaint});
         CHECK_FALSE(fs::exists(directory / "a.ppm"));
     }
     CHECK(run("scene", {"a.ppm", "flat", "half-lambert"}).exit_code == 0);
@@ -221,8 +208,8 @@ TEST_CASE("generate: programs name the CA and RE that their comments cite") {
         generate({"--target", target, "-o", (directory / target).string()});
         for (const std::string& file : {std::string("scene.cpp"), std::string("README.md")}) {
             const std::string text = read_file(directory / target / file);
-            CHECK(text.find("Commonality Analysis for Family of Lighting Models") != std::string::npos);
-            CHECK(text.find("Rendering equation") != std::string::npos);
+            CHECK(holds(text, "Commonality Analysis for Family of Lighting Models"));
+            CHECK(holds(text, "Rendering equation"));
         }
     }
 }
@@ -232,37 +219,36 @@ TEST_CASE("generate: a newer compiler's warnings do not fail the build of a prog
         const fs::path directory = scratch_directory() / target;
         generate({"--target", target, "-o", directory.string()});
         const std::string cmake = read_file(directory / "CMakeLists.txt");
-        CHECK(cmake.find("-Wall -Wextra") != std::string::npos);
-        CHECK(cmake.find("-Werror") == std::string::npos);
+        CHECK(holds(cmake, "-Wall -Wextra"));
+        CHECK_FALSE(holds(cmake, "-Werror"));
     }
 }
 
 TEST_CASE("generate: errors name the problem and the remedy") {
     const fs::path directory = scratch_directory();
-    const auto expect = [&](const std::vector<std::string>& arguments, int code, const std::string& message) {
+    const auto expect_error = [&](const std::vector<std::string>& arguments, int code,
+                                  const std::string& message) {
         std::vector<std::string> words{"generate"};
         words.insert(words.end(), arguments.begin(), arguments.end());
-        const CommandResult result = run_candela(words);
-        INFO(result.err);
-        CHECK(result.exit_code == code);
-        CHECK(result.err.find(message) != std::string::npos);
+        expect(run_candela(words), code, {message});
     };
     const std::string out = (directory / "program").string();
-    expect({}, 2, "--target is missing");
-    expect({"--target", "opengI"}, 2, "did you mean 'opengl'?");
-    expect({"--target", "cpp", "-o", out, "--models", "lambrt"}, 2, "did you mean 'lambert'?");
-    expect({"--target", "cpp", "-o", out, "--reflection", "dielectric"}, 1, "reflection/dielectric");
-    expect({"--target", "cpp", "-o", out, CANDELA_TEST_SOURCE "/docs/examples/glass.toml"}, 1, "environment");
-    expect({"--target", "cpp", "-o", out, "missing.toml"}, 1, "missing.toml");
-    expect({"--target", "cpp", "-o", out, "--set", "light.lamp.intensity=-1"}, 3, "intensity");
+    expect_error({}, 2, "--target is missing");
+    expect_error({"--target", "opengI"}, 2, "did you mean 'opengl'?");
+    expect_error({"--target", "cpp", "-o", out, "--models", "lambrt"}, 2, "did you mean 'lambert'?");
+    expect_error({"--target", "cpp", "-o", out, "--reflection", "dielectric"}, 1, "reflection/dielectric");
+    expect_error({"--target", "cpp", "-o", out, CANDELA_TEST_SOURCE "/docs/examples/glass.toml"}, 1,
+                 "environment");
+    expect_error({"--target", "cpp", "-o", out, "missing.toml"}, 1, "missing.toml");
+    expect_error({"--target", "cpp", "-o", out, "--set", "light.lamp.intensity=-1"}, 3, "intensity");
     CHECK_FALSE(fs::exists(out));
     write_file(directory / "file", "");
-    expect({"--target", "cpp", "-o", (directory / "file").string()}, 1, "cannot be created");
+    expect_error({"--target", "cpp", "-o", (directory / "file").string()}, 1, "cannot be created");
 #ifdef CANDELA_TEST_FAULTY_PLUGINS
     for (const char* const target : {"webgl", "three"})
-        expect({"--target", target, "-o", out, "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS, "--reflection",
-                "faultless"},
-               1, "reflection/faultless has no kernel");
+        expect_error({"--target", target, "-o", out, "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS,
+                      "--reflection", "faultless"},
+                     1, "reflection/faultless has no kernel");
 #endif
 }
 
@@ -293,12 +279,11 @@ TEST_CASE("generate: docs/user/exporting.md states the line counts of the defaul
     const fs::path cube = CANDELA_TEST_SOURCE "/docs/examples/cube.toml";
     const std::string page = read_file(CANDELA_TEST_SOURCE "/docs/user/exporting.md");
     INFO(fmt::format("C++ {}, OpenGL {}, scene {}", cpp, opengl, written_lines(read_file(cube))));
-    CHECK(page.find(fmt::format("| C++ alone | {} |", cpp)) != std::string::npos);
-    CHECK(page.find(fmt::format("| OpenGL 3.3 | {} |", opengl)) != std::string::npos);
-    CHECK(page.find(fmt::format("| Candela, as a scene file | {} |", written_lines(read_file(cube)))) !=
-          std::string::npos);
+    CHECK(holds(page, fmt::format("| C++ alone | {} |", cpp)));
+    CHECK(holds(page, fmt::format("| OpenGL 3.3 | {} |", opengl)));
+    CHECK(holds(page, fmt::format("| Candela, as a scene file | {} |", written_lines(read_file(cube)))));
 
-    REQUIRE(run_candela({"render", cube.string(), "-o", (directory / "cube.ppm").string()}).exit_code == 0);
-    REQUIRE(run_candela({"render", "-o", (directory / "default.ppm").string()}).exit_code == 0);
+    succeeded(run_candela({"render", cube.string(), "-o", (directory / "cube.ppm").string()}));
+    succeeded(run_candela({"render", "-o", (directory / "default.ppm").string()}));
     CHECK(read_file(directory / "cube.ppm") == read_file(directory / "default.ppm"));
 }

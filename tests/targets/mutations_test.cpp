@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -176,7 +178,7 @@ constexpr std::array k_texture_mutations = {
 /// Replaces all occurrences. None is an error of this test, because the fault would be missing.
 std::string edited(std::string text, const Edit& edit) {
     INFO("no longer in the program: " << edit.from);
-    REQUIRE(text.find(edit.from) != std::string::npos);
+    REQUIRE(holds(text, edit.from));
     for (std::size_t at = 0; (at = text.find(edit.from, at)) != std::string::npos; at += edit.to.size())
         text.replace(at, edit.from.size(), edit.to);
     return text;
@@ -204,16 +206,14 @@ using Fault = std::pair<const char*, Edit>;
 void expect_caught(const std::string& target, const std::string& scene, const std::string& file,
                    const std::vector<Fault>& faults) {
     const fs::path program = fs::path(scene).parent_path() / "program";
-    REQUIRE(run_candela({"generate", scene, "--target", target, "-o", program.string()}).exit_code == 0);
+    succeeded(run_candela({"generate", scene, "--target", target, "-o", program.string()}));
     const std::string sound = read_file(program / file);
     // OpenGL's picture does not depend on the optimisation of the program.
     if (target != "webgl") precompile_headers(program, sound, target == "cpp" ? "-O1" : "-O0");
     const auto verified = [&] {
         return run_candela({"verify", scene, "--target", target, "--program", program.string()});
     };
-    const CommandResult unchanged = verified();
-    INFO(unchanged.out << unchanged.err);
-    REQUIRE(unchanged.exit_code == 0);
+    succeeded(verified());
     for (const auto& [name, edit] : faults) {
         write_file(program / file, edited(sound, edit));
         const CommandResult result = verified();

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -78,17 +80,8 @@ std::vector<std::string> all_names() {
     return names;
 }
 
-std::size_t count_of(const std::string& text, const std::string& what) {
-    std::size_t count = 0;
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; ++at) ++count;
-    return count;
-}
-
 void generate(const std::string& target, const fs::path& scene, const fs::path& directory) {
-    const CommandResult result =
-        run_candela({"generate", scene.string(), "--target", target, "-o", directory.string()});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(run_candela({"generate", scene.string(), "--target", target, "-o", directory.string()}));
 }
 
 std::vector<std::string> tame_names(std::size_t count) {
@@ -112,7 +105,7 @@ TEST_CASE("names: C++ programs of scenes with hostile names compile and draw the
                          (directory / "program/scene.cpp").string()});
         INFO(compiled.err.substr(0, 2000));
         REQUIRE(compiled.exit_code == 0);
-        REQUIRE(run_program({program.string(), (directory / "scene.ppm").string()}).exit_code == 0);
+        succeeded(run_program({program.string(), (directory / "scene.ppm").string()}));
         return read_file(directory / "scene.ppm");
     };
     const std::string tame = image(tame_names(names.size()), "tame.toml");
@@ -182,7 +175,7 @@ object = [
         const std::string source = read_file(directory / target / "scene.cpp");
         for (const std::string& name : {"// lamp\n", "// Weisse Lampe\n", "Groesse", "____", "_ ball"}) {
             INFO(target << ": " << name);
-            CHECK(source.find(name) != std::string::npos);
+            CHECK(holds(source, name));
         }
         CHECK(std::ranges::all_of(source, [](char c) { return static_cast<unsigned char>(c) < 0x80; }));
     }

@@ -11,6 +11,8 @@
 
 #include "candela/target/textures.h"
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using candela::ColorEncoding;
@@ -101,24 +103,21 @@ TEST_CASE("generate: each picture becomes one file next to the program, exact to
         write_file(folder / "a.ppm", small_ppm(1));
         write_file(folder / "b.ppm", small_ppm(2));
         const fs::path scene = write_file(folder / "scene.toml", scene_with("aba"));
-        const CommandResult result =
-            run_candela({"generate", scene.string(), "--target", target, "-o", program.string()});
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
+        succeeded(run_candela({"generate", scene.string(), "--target", target, "-o", program.string()}));
         CHECK(read_file(program / "texture_0.ppm") == small_ppm(1));
         CHECK(read_file(program / "texture_1.ppm").starts_with("P6\n128 2\n65535\n"));
         CHECK(read_file(program / "texture_1.ppm").size() == small_ppm(2).size());
         CHECK_FALSE(fs::exists(program / "texture_2.ppm"));
-        CHECK(read_file(program / "scene.cpp").find("// a.ppm") != std::string::npos);
+        CHECK(holds(read_file(program / "scene.cpp"), "// a.ppm"));
     }
 }
 
 TEST_CASE("generate: the program of a scene without textures does not mention textures") {
     for (const char* const target : {"cpp", "opengl"}) {
         const fs::path program = scratch_directory() / target;
-        REQUIRE(run_candela({"generate", "--target", target, "-o", program.string()}).exit_code == 0);
+        succeeded(run_candela({"generate", "--target", target, "-o", program.string()}));
         for (const char* const word : {"color_texture", "ColorTexture", "TEXTURED", "uv_edges"})
-            CHECK(read_file(program / "scene.cpp").find(word) == std::string::npos);
+            CHECK_FALSE(holds(read_file(program / "scene.cpp"), word));
     }
 }
 
@@ -127,13 +126,9 @@ TEST_CASE("generate: a C++ program names a texture that it cannot read, and acce
     write_file(folder / "square.obj", k_square);
     write_file(folder / "a.ppm", small_ppm(1));
     const fs::path scene = write_file(folder / "scene.toml", scene_with("a"));
-    REQUIRE(run_candela({"generate", scene.string(), "--target", "cpp", "-o", program.string()}).exit_code ==
-            0);
-    const CommandResult compiled =
-        run_program({"g++", "-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror",
-                     (program / "scene.cpp").string(), "-o", (folder / "scene").string()});
-    INFO(compiled.err);
-    REQUIRE(compiled.exit_code == 0);
+    succeeded(run_candela({"generate", scene.string(), "--target", "cpp", "-o", program.string()}));
+    succeeded(run_program({"g++", "-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror",
+                           (program / "scene.cpp").string(), "-o", (folder / "scene").string()}));
     const auto run = [&] {
         return run_program({(folder / "scene").string(), (folder / "picture.ppm").string()});
     };
@@ -149,10 +144,7 @@ TEST_CASE("generate: a C++ program names a texture that it cannot read, and acce
          {std::string("P5\n1 1\n255\n0"), std::string("P6\n2 2\n255\n0"), std::string("P6\n0 1\n255\n"),
           std::string("P6\n1 1\n100\n000"), std::string()}) {
         write_file(program / "texture_0.ppm", broken);
-        const CommandResult result = run();
-        INFO(result.err);
-        CHECK(result.exit_code == 1);
-        CHECK(result.err.find((program / "texture_0.ppm").string()) != std::string::npos);
+        expect(run(), 1, {(program / "texture_0.ppm").string()});
     }
     fs::remove(program / "texture_0.ppm");
     CHECK(run().exit_code == 1);
@@ -163,13 +155,11 @@ TEST_CASE("generate: a model with textures becomes a program, and a page that co
     const fs::path model = write_file(folder / "square.obj", k_square);
     write_file(folder / "square.mtl", "newmtl tiles\nKd 1 1 1\nmap_Kd tiles.ppm\n");
     write_file(folder / "tiles.ppm", small_ppm(1));
-    REQUIRE(run_candela({"generate", model.string(), "--target", "cpp", "-o", (folder / "cpp").string()})
-                .exit_code == 0);
+    succeeded(run_candela({"generate", model.string(), "--target", "cpp", "-o", (folder / "cpp").string()}));
     CHECK(read_file(folder / "cpp/texture_0.ppm") == small_ppm(1));
-    REQUIRE(run_candela({"generate", model.string(), "--target", "webgl", "-o", (folder / "page").string()})
-                .exit_code == 0);
-    CHECK(read_file(folder / "page/scene.html").find(R"("title":"tiles.ppm","width":128)") !=
-          std::string::npos);
+    succeeded(
+        run_candela({"generate", model.string(), "--target", "webgl", "-o", (folder / "page").string()}));
+    CHECK(holds(read_file(folder / "page/scene.html"), R"("title":"tiles.ppm","width":128)"));
 }
 
 TEST_CASE("generate: pictures too large for a page are refused with their size", "[whole]") {
@@ -177,11 +167,7 @@ TEST_CASE("generate: pictures too large for a page are refused with their size",
     write_file(folder / "square.obj", k_square);
     write_file(folder / "a.ppm", "P6\n6000 6000\n255\n" + std::string(std::size_t{3} * 6000 * 6000, '\x50'));
     const fs::path scene = write_file(folder / "scene.toml", scene_with("a"));
-    const CommandResult result =
-        run_candela({"generate", scene.string(), "--target", "webgl", "-o", (folder / "page").string()});
-    INFO(result.err);
-    CHECK(result.exit_code == 1);
-    CHECK(result.err.find("more than 96 MiB") != std::string::npos);
-    CHECK(result.err.find("6000 x 6000 pixels") != std::string::npos);
+    expect(run_candela({"generate", scene.string(), "--target", "webgl", "-o", (folder / "page").string()}),
+           1, {"more than 96 MiB", "6000 x 6000 pixels"});
     CHECK_FALSE(fs::exists(folder / "page"));
 }

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -42,7 +44,7 @@ CommandResult verify_changed(const std::string& target, const std::string& file,
     const fs::path program = scratch_directory() / "program";
     std::vector<std::string> words{"generate", "--target", target, "-o", program.string()};
     words.insert(words.end(), k_small.begin(), k_small.end());
-    REQUIRE(run_candela(words).exit_code == 0);
+    succeeded(run_candela(words));
     if (!from.empty()) replace_in(program / file, from, to);
     words = {"--target", target, "--program", program.string()};
     words.insert(words.end(), k_small.begin(), k_small.end());
@@ -56,80 +58,66 @@ TEST_CASE("verify: the default scene matches in C++, in OpenGL and in a browser,
     const fs::path report = scratch_directory() / "report";
     const fs::path home = scratch_directory() / "home";
     fs::create_directories(home);
-    const CommandResult result = verify_where({{"HOME", home.string()}, {"XDG_CACHE_HOME", home.string()}},
-                                              {"--report", report.string()});
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 0);
+    const CommandResult result =
+        expect(verify_where({{"HOME", home.string()}, {"XDG_CACHE_HOME", home.string()}},
+                            {"--report", report.string()}),
+               0);
     INFO("drivers and browsers leave nothing at home");
     CHECK(fs::is_empty(home));
     for (const char* const target : {"cpp", "opengl", "webgl"}) {
-        CHECK(result.out.find(target) != std::string::npos);
+        CHECK(holds(result.out, target));
         CHECK(fs::exists(report / (std::string(target) + ".png")));
         CHECK(fs::exists(report / (std::string(target) + "-difference.png")));
     }
-    CHECK(result.out.find("MISMATCH") == std::string::npos);
-    CHECK(read_file(report / "index.html").find("Verification of The default scene") != std::string::npos);
+    CHECK_FALSE(holds(result.out, "MISMATCH"));
+    CHECK(holds(read_file(report / "index.html"), "Verification of The default scene"));
 }
 #endif
 
 TEST_CASE("verify: an unchanged program matches, even in a folder where it was generated before") {
-    const CommandResult result = verify_changed("cpp", "", "", "");
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 0);
+    expect(verify_changed("cpp", "", "", ""), 0);
 }
 
 TEST_CASE("verify: a sign in one copy of a kernel is caught", "[programs]") {
-    const CommandResult result =
-        verify_changed("cpp", "scene.cpp", "s.normal - to_light", "s.normal + to_light");
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 4);
-    CHECK(result.out.find("MISMATCH") != std::string::npos);
+    expect_out(verify_changed("cpp", "scene.cpp", "s.normal - to_light", "s.normal + to_light"), 4,
+               {"MISMATCH"});
 }
 
 TEST_CASE("verify: a light that is displaced by five centimetres is caught", "[whole]") {
-    const CommandResult result = verify_changed("cpp", "scene.cpp", "PointLight{vec3(1.0f), 2.5f, vec3(0.0f)",
-                                                "PointLight{vec3(1.0f), 2.5f, vec3(0.05f, 0.0f, 0.0f)");
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 4);
+    expect(verify_changed("cpp", "scene.cpp", "PointLight{vec3(1.0f), 2.5f, vec3(0.0f)",
+                          "PointLight{vec3(1.0f), 2.5f, vec3(0.05f, 0.0f, 0.0f)"),
+           4);
 }
 
 TEST_CASE("verify: half Lambert instead of Lambert is caught, in GLSL", "[programs]") {
-    const CommandResult result = verify_changed("opengl", "scene.cpp", "max(n_dot_l, 0.0f)",
-                                                "(0.5f * n_dot_l + 0.5f) * (0.5f * n_dot_l + 0.5f)");
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 4);
+    expect(verify_changed("opengl", "scene.cpp", "max(n_dot_l, 0.0f)",
+                          "(0.5f * n_dot_l + 0.5f) * (0.5f * n_dot_l + 0.5f)"),
+           4);
 }
 
 TEST_CASE("verify: an object that is not drawn is caught", "[whole]") {
-    const CommandResult result = verify_changed("cpp", "scene.cpp", "all.push_back(o);", "");
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 4);
+    expect(verify_changed("cpp", "scene.cpp", "all.push_back(o);", ""), 4);
 }
 
 TEST_CASE("verify: a wrong formula in a page is caught", "[programs]") {
-    const CommandResult result = verify_changed("webgl", "scene.html", "s.color * max(n_dot_l, 0.0f)",
-                                                "s.color * max(1.1f * n_dot_l, 0.0f)");
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 4);
+    expect(verify_changed("webgl", "scene.html", "s.color * max(n_dot_l, 0.0f)",
+                          "s.color * max(1.1f * n_dot_l, 0.0f)"),
+           4);
 }
 
 TEST_CASE("verify: a program that does not compile or run is an error that shows the reason", "[programs]") {
-    const CommandResult compiled = verify_changed("cpp", "scene.cpp", "int main(", "int main(nonsense ");
-    CHECK(compiled.exit_code == 1);
-    CHECK(compiled.err.find("nonsense") != std::string::npos);
-    const CommandResult run =
+    expect(verify_changed("cpp", "scene.cpp", "int main(", "int main(nonsense "), 1, {"nonsense"});
+    expect(
         verify_changed("cpp", "scene.cpp", "const std::string path = argc > 1 ? argv[1] : \"scene.png\";",
-                       "const std::string path = std::string(argc > 1 ? argv[1] : \"\") + \"/no/folder\";");
-    CHECK(run.exit_code == 1);
-    CHECK(run.err.find("cannot write") != std::string::npos);
+                       "const std::string path = std::string(argc > 1 ? argv[1] : \"\") + \"/no/folder\";"),
+        1, {"cannot write"});
 }
 
 #ifdef CANDELA_TEST_FAULTY_PLUGINS
 TEST_CASE("verify: a plugin whose kernel differs from its code is caught") {
-    const CommandResult result = verify({"--target", "cpp", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS,
-                                         "--reflection", "says-otherwise", "--width", "120"});
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 4);
+    expect(verify({"--target", "cpp", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS, "--reflection",
+                   "says-otherwise", "--width", "120"}),
+           4);
 }
 #endif
 
@@ -140,7 +128,7 @@ CommandResult verify_grey(const std::vector<std::string>& more) {
     const fs::path program = scratch_directory() / "grey";
     std::vector<std::string> words{"generate", "--target", "cpp", "-o", program.string()};
     words.insert(words.end(), k_small.begin(), k_small.end());
-    REQUIRE(run_candela(words).exit_code == 0);
+    succeeded(run_candela(words));
     replace_in(program / "scene.cpp", "255.0f * encoded(std::min(std::max(x, 0.0f), 1.0f)) + 0.5f",
                "127.0f + 0 * x");
     words = {"--target", "cpp", "--program", program.string()};
@@ -152,12 +140,8 @@ CommandResult verify_grey(const std::vector<std::string>& more) {
 }  // namespace
 
 TEST_CASE("verify: a tolerance of 0 does not make every pixel an edge", "[programs]") {
-    const CommandResult grey = verify_grey({"--tolerance", "0"});
-    INFO(grey.out << grey.err);
-    CHECK(grey.exit_code == 4);
-    const CommandResult result = verify_changed("cpp", "", "", "");
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 0);
+    expect(verify_grey({"--tolerance", "0"}), 4);
+    expect(verify_changed("cpp", "", "", ""), 0);
 }
 
 TEST_CASE("verify: a program that draws nothing does not pass with a picture of an earlier report",
@@ -169,29 +153,21 @@ TEST_CASE("verify: a program that draws nothing does not pass with a picture of 
     REQUIRE(fs::exists(report / "cpp.png"));
     write_file(program / "scene.cpp", "int main() {}\n");
     words.insert(words.end(), {"--program", program.string()});
-    const CommandResult result = verify(words);
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 4);
-    CHECK(result.out.find("ended without writing a picture") != std::string::npos);
+    expect_out(verify(words), 4, {"ended without writing a picture"});
     CHECK_FALSE(fs::exists(report / "cpp.png"));
-    CHECK(read_file(report / "index.html").find("ended without writing a picture") != std::string::npos);
+    CHECK(holds(read_file(report / "index.html"), "ended without writing a picture"));
 }
 
 TEST_CASE("verify: a picture of another size is reported as such", "[programs]") {
-    const CommandResult result =
-        verify_changed("cpp", "scene.cpp", "k_width = 160, k_height = 120", "k_width = 80, k_height = 60");
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 4);
-    CHECK(result.out.find("80 x 60") != std::string::npos);
+    expect_out(
+        verify_changed("cpp", "scene.cpp", "k_width = 160, k_height = 120", "k_width = 80, k_height = 60"), 4,
+        {"80 x 60"});
 }
 
 TEST_CASE("verify: if hardly a pixel is away from edges, there is no verdict, but advice", "[programs]") {
     for (const std::string& size : {std::string("12"), std::string("30")}) {
-        const CommandResult result = verify({"--target", "cpp", "--width", size, "--height", size});
-        INFO(result.out << result.err);
-        CHECK(result.exit_code == 4);
-        CHECK(result.out.find("UNDECIDED") != std::string::npos);
-        CHECK(result.out.find("--width") != std::string::npos);
+        expect_out(verify({"--target", "cpp", "--width", size, "--height", size}), 4,
+                   {"UNDECIDED", "--width"});
     }
 }
 
@@ -199,9 +175,7 @@ TEST_CASE("verify: --json has the figures, and the number of pixels that the ver
           "[programs]") {
     std::vector<std::string> words{"--target", "cpp", "--json"};
     words.insert(words.end(), k_small.begin(), k_small.end());
-    const CommandResult result = verify(words);
-    INFO(result.out << result.err);
-    REQUIRE(result.exit_code == 0);
+    const CommandResult result = succeeded(verify(words));
     const auto json = nlohmann::json::parse(result.out);
     REQUIRE(json.size() == 1);
     CHECK(json[0].at("target") == "cpp");
@@ -231,9 +205,7 @@ object = [
     {type = "sphere", radius = 40000, segments = 64, position = [60000, 0, -150000], color = [80, 160, 220]},
 ]
 )");
-    const CommandResult result = verify({scene.string()});
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 0);
+    expect(verify({scene.string()}), 0);
 }
 #endif
 
@@ -362,7 +334,7 @@ material = {bands = 5, highlight = 10}
 #endif
 
 TEST_CASE("verify: wrong arguments are usage errors with a way out") {
-    CHECK(verify({"--target", "webg"}).err.find("did you mean 'webgl'?") != std::string::npos);
+    CHECK(holds(verify({"--target", "webg"}).err, "did you mean 'webgl'?"));
     CHECK(verify({"--target", "webg"}).exit_code == 2);
     CHECK(verify({"--tolerance", "-1"}).exit_code == 2);
     CHECK(verify({"--program", "x"}).exit_code == 2);

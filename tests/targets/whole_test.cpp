@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -47,12 +49,9 @@ CommandSetup with_room_for(rlim_t bytes) {
 TEST_CASE("generate: without room for a file, there is no new folder, and a retry writes it") {
     const fs::path scratch = scratch_directory(), directory = scratch / "deep" / "program";
     const std::vector<std::string> words{"generate", "--target", "opengl", "-o", directory.string()};
-    const CommandResult failed = run_candela(words, with_room_for(10'000));
-    INFO(failed.err);
-    CHECK(failed.exit_code == 1);
-    CHECK(failed.err.find((directory / "scene.cpp").string()) != std::string::npos);
+    expect(run_candela(words, with_room_for(10'000)), 1, {(directory / "scene.cpp").string()});
     CHECK(contents_of(scratch).empty());
-    REQUIRE(run_candela(words).exit_code == 0);
+    succeeded(run_candela(words));
     CHECK(contents_of(directory).size() == 4);
 }
 
@@ -67,14 +66,14 @@ TEST_CASE("generate: without room for a file, an old folder keeps all of its fil
                                         "--set",
                                         "object.cube.size=0." + height};
     };
-    REQUIRE(run_candela(words("7")).exit_code == 0);
+    succeeded(run_candela(words("7")));
     write_file(directory / "notes.txt", "mine");
     const auto before = contents_of(directory);
     // meshes.h fits and scene.cpp does not.
-    CHECK(run_candela(words("8"), with_room_for(10'000)).exit_code == 1);
+    expect(run_candela(words("8"), with_room_for(10'000)), 1);
     const bool is_untouched = contents_of(directory) == before;
     CHECK(is_untouched);
-    REQUIRE(run_candela(words("8")).exit_code == 0);
+    succeeded(run_candela(words("8")));
     const auto after = contents_of(directory);
     CHECK(after.size() == before.size());
     CHECK(after.at("notes.txt") == "mine");
@@ -88,11 +87,9 @@ TEST_CASE("plugin new: without room for a file, there is no folder, and a retry 
         const fs::path directory = scratch / name;
         if (name != "cel") fs::create_directory(directory);
         const std::vector<std::string> words{"plugin", "new", "reflection", "cel", directory.string()};
-        const CommandResult failed = run_candela(words, with_room_for(500));
-        INFO(failed.err);
-        CHECK(failed.exit_code == 1);
+        expect(run_candela(words, with_room_for(500)), 1);
         CHECK((!fs::exists(directory) || fs::is_empty(directory)));
-        REQUIRE(run_candela(words).exit_code == 0);
+        succeeded(run_candela(words));
         CHECK(contents_of(directory).size() == 4);
         fs::remove_all(directory);
         CHECK(contents_of(scratch).empty());
@@ -148,7 +145,7 @@ TEST_CASE("verify: interrupted at any moment, it leaves an old report and its fo
                                         "--report",
                                         report.string()};
     };
-    REQUIRE(run_program(words("[40,90,235]")).exit_code == 0);
+    succeeded(run_program(words("[40,90,235]")));
     write_file(report / "notes.txt", "mine");
     const auto before = contents_of(report);
     int interrupted = 0;
@@ -166,9 +163,7 @@ TEST_CASE("verify: interrupted at any moment, it leaves an old report and its fo
         CHECK(files_beside(report) == 0);
     }
     CHECK(interrupted >= 1);
-    const CommandResult finished = run_program(words("[235,90,40]"));
-    INFO(finished.out << finished.err);
-    REQUIRE(finished.exit_code == 0);
+    succeeded(run_program(words("[235,90,40]")));
     const auto after = contents_of(report);
     CHECK(after.at("notes.txt") == "mine");
     const bool is_new = after.at("reference.png") != before.at("reference.png") &&
@@ -177,23 +172,19 @@ TEST_CASE("verify: interrupted at any moment, it leaves an old report and its fo
     // A program built elsewhere can be built in its present folder.
     std::vector<std::string> again = words("[235,90,40]");
     again.insert(again.end(), {"--program", (report / "cpp").string()});
-    const CommandResult built = run_program(again);
-    INFO(built.out << built.err);
-    CHECK(built.exit_code == 0);
+    expect(run_program(again), 0);
 }
 
 TEST_CASE("verify and generate do not replace files that the scene is made from, whatever their names") {
     const fs::path folder = scratch_directory() / "folder";
     fs::create_directories(folder / "cpp");
     const auto refused = [&](const fs::path& scene, const std::vector<std::string>& words) {
-        REQUIRE(run_candela({"new", scene.string()}).exit_code == 0);
+        succeeded(run_candela({"new", scene.string()}));
         const std::string before = read_file(scene);
-        const CommandResult result = run_candela(words);
-        INFO(result.out << result.err);
-        CHECK(result.exit_code == 2);
-        CHECK(result.err.find("'" + scene.string() +
-                              "' is one of the files that the scene is made from; choose "
-                              "another folder with --") != std::string::npos);
+        expect(run_candela(words), 2,
+               {"'" + scene.string() +
+                "' is one of the files that the scene is made from; choose "
+                "another folder with --"});
         const bool is_untouched = read_file(scene) == before;
         CHECK(is_untouched);
         fs::remove(scene);

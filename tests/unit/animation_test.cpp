@@ -13,6 +13,7 @@
 #include "console/diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
+#include "support/text.h"
 
 using candela::Interpolation;
 using candela::Track;
@@ -78,8 +79,6 @@ std::string found_in(const candela::SceneRequest& request) {
 }
 
 std::string found_in(const std::string& animation) { return found_in(request_of(animation)); }
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 candela::SceneFrames frames_of(const std::string& animation) {
     candela::Diagnostics diagnostics;

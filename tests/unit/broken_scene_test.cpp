@@ -10,6 +10,7 @@
 
 #include "support/command.h"
 #include "support/plugins.h"
+#include "support/text.h"
 
 TEST_CASE("one randomly broken constraint is reported at its place, and nothing else is") {
     const std::filesystem::path file = scratch_directory() / "scene.toml";
@@ -29,7 +30,7 @@ TEST_CASE("one randomly broken constraint is reported at its place, and nothing 
         CHECK(diagnostics.error_count() == 1);
         for (const candela::Diagnostic& d : diagnostics.sorted()) {
             if (d.severity != candela::Severity::error) continue;
-            CHECK(d.message.find(broken.message) != std::string::npos);
+            CHECK(holds(d.message, broken.message));
             if (broken.line > 0) CHECK(d.place.line == broken.line);
         }
         ++found[broken.rule];

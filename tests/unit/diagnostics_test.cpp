@@ -4,6 +4,8 @@
 
 #include "console/diagnostics_text.h"
 
+#include "support/text.h"
+
 import candela.core;
 
 using candela::Diagnostics;
@@ -15,7 +17,7 @@ TEST_CASE("a diagnostic shows its line with a mark below the position") {
     diagnostics.error({"a.toml", 2, 2, 3}, "wrong", "try this");
     CHECK(diagnostics_text(diagnostics, false) ==
           "a.toml:2:2: error: wrong\n    2 | \tkey = 3\n      | \t^^^ try this\n");
-    CHECK(diagnostics_text(diagnostics, true).find("\x1b[1m\x1b[31merror:") != std::string::npos);
+    CHECK(holds(diagnostics_text(diagnostics, true), "\x1b[1m\x1b[31merror:"));
     candela::Diagnostics whole;
     whole.warning({"b.toml", 0, 0, 0}, "odd");
     CHECK(diagnostics_text(whole, false) == "b.toml: warning: odd\n");
@@ -49,8 +51,8 @@ TEST_CASE("at most 50 diagnostics are shown, in order of position, and the rest 
     }
     const std::string text = diagnostics_text(diagnostics, false);
     CHECK(text.starts_with("a.toml:1:1: error: wrong\n"));
-    CHECK(text.find("a.toml:50:1:") != std::string::npos);
-    CHECK(text.find("a.toml:51:1:") == std::string::npos);
+    CHECK(holds(text, "a.toml:50:1:"));
+    CHECK_FALSE(holds(text, "a.toml:51:1:"));
     CHECK(text.ends_with("and 30 more (22 of them errors)\n"));
 }
 

@@ -8,13 +8,12 @@
 #include "candela/kernel_language/language.h"
 #include "candela/kernel_language/lexer.h"
 #include "support/command.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 namespace kl = candela::kernel_language;
 
 namespace {
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 constexpr const char* k_kernel =
     "struct XMaterial { vec3 kd; float k; int n; Table ramp; mat3 m; };\n"

@@ -8,6 +8,8 @@
 #include "candela/kernel_language/language.h"
 #include "candela/kernel_language/model.h"
 
+#include "support/text.h"
+
 import candela.api;
 
 namespace kl = candela::kernel_language;
@@ -144,7 +146,7 @@ TEST_CASE("what a model reads is found in its functions, and in those that they 
     CHECK(model.reads.surface == std::set<std::string>{"color", "normal", "tangent", "uv"});
     CHECK(model.structure.empty());
     const std::string source = kl::plugin_source(model, "x.kernel");
-    CHECK(source.find("reads_tangent | reads_uv>") != std::string::npos);
+    CHECK(holds(source, "reads_tangent | reads_uv>"));
 }
 
 TEST_CASE("the kind of a model follows from its functions") {
@@ -161,7 +163,7 @@ TEST_CASE("the kind of a model follows from its functions") {
         "vec3(light.power), vec3(light.power)); }\n");
     CHECK(light.kind == candela::PluginKind::light);
     CHECK(light.reads.receiver.empty());
-    CHECK(kl::plugin_source(light, "x.kernel").find("distant_light(") != std::string::npos);
+    CHECK(holds(kl::plugin_source(light, "x.kernel"), "distant_light("));
     CHECK_THROWS_AS(model_in("KERNEL float other_reflect(Surface s) { return 1.0f; }\n"), kl::Problem);
     CHECK_THROWS_AS(model_in("KERNEL Reflected x_reflect(Surface s, vec3 l) { return Reflected(l, l); }\n"),
                     kl::Problem);
@@ -177,10 +179,11 @@ TEST_CASE("comments cannot add code to the plugin that is compiled") {
     const kl::ModelDeclaration model = model_with("float a;  /// = 1: \"; } int system(const char*); // \\\"",
                                                   "/// # \"});\n/// ?\?/\" \x01 x\n");
     const std::string source = kl::plugin_source(model, "x.kernel");
-    CHECK(source.find(R"(.title = "\"});")") != std::string::npos);
-    CHECK(source.find(R"(.meaning = "\"; } int system(const char*); // \\\"")") != std::string::npos);
-    CHECK(source.find("?"
-                      "?") == std::string::npos);
+    CHECK(holds(source, R"(.title = "\"});")"));
+    CHECK(holds(source, R"(.meaning = "\"; } int system(const char*); // \\\"")"));
+    CHECK_FALSE(holds(source,
+                      "?"
+                      "?"));
     CHECK(source.find('\x01') == std::string::npos);
 }
 

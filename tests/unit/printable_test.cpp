@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "support/text.h"
+
 import candela.core;
 
 using candela::LineBreaks;
@@ -56,7 +58,7 @@ TEST_CASE("printable JSON means the same") {
     const nlohmann::json value = {{"name", hidden}, {"list", {1, "a\n\x1b"}}};
     const std::string text = candela::printable_json(value.dump(2));
     CHECK(printable(text, LineBreaks::kept) == text);
-    CHECK(text.find("\xc3\xa9") != std::string::npos);
+    CHECK(holds(text, "\xc3\xa9"));
     CHECK(nlohmann::json::parse(text) == value);
 }
 

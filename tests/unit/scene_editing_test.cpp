@@ -17,6 +17,7 @@
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/random_scene.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -76,12 +77,6 @@ color = [200, 90, 40]
 material.kd = 0.5   # dull
 material.ks = 0.25
 )";
-
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-    const std::size_t at = text.find(from);
-    REQUIRE(at != std::string::npos);
-    return text.replace(at, from.size(), to);
-}
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include "console/diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
+#include "support/text.h"
 
 using candela::Diagnostic;
 using candela::Scene;
@@ -55,7 +56,7 @@ void check_error(const std::string& text, int line, int column, const std::strin
     CHECK(result.found[0].severity == Severity::error);
     CHECK(result.found[0].place.line == line);
     CHECK(result.found[0].place.column == column);
-    CHECK((result.found[0].message + " " + result.found[0].hint).find(part) != std::string::npos);
+    CHECK(holds((result.found[0].message + " " + result.found[0].hint), part));
 }
 
 }  // namespace
@@ -220,7 +221,7 @@ TEST_CASE("a surface that emits more light than it receives draws a warning (RE)
     CHECK(result.scene);
     REQUIRE(result.found.size() == 1);
     CHECK(result.found[0].severity == Severity::warning);
-    CHECK(result.found[0].message.find("kd + ks is 1.1") != std::string::npos);
+    CHECK(holds(result.found[0].message, "kd + ks is 1.1"));
     CHECK(read(whole() + "[object.material]\nkd = 0.7\nks = 0.3\n").found.empty());
 }
 
@@ -258,8 +259,7 @@ TEST_CASE("an empty name is not a model, nor a request for the default") {
     check_error(whole() + "reflection = \"\"\n", 15, 14, "no reflection plugin is called ''");
     candela::SceneRequest request;
     request.reflection = {"", "--reflection"};
-    CHECK(read(whole(), request).text.find("--reflection: error: no reflection plugin is called ''") !=
-          std::string::npos);
+    CHECK(holds(read(whole(), request).text, "--reflection: error: no reflection plugin is called ''"));
 }
 
 TEST_CASE("a value in place of a table is reported once, without its missing keys") {
@@ -307,9 +307,9 @@ TEST_CASE("several files are one scene; duplicates of what may occur once are re
     request.files.push_back(write_file(directory / "again.toml", k_observer));
     const Result twice = read(request);
     CHECK_FALSE(twice.scene);
-    CHECK(twice.text.find("rest.toml:2:2") != std::string::npos);
+    CHECK(holds(twice.text, "rest.toml:2:2"));
     request.files.back() = rest;
-    CHECK(read(request).text.find("is read twice") != std::string::npos);
+    CHECK(holds(read(request).text, "is read twice"));
 }
 
 TEST_CASE("include adds other files, relative to the file that names them, and detects cycles") {
@@ -321,7 +321,7 @@ TEST_CASE("include adds other files, relative to the file that names them, and d
                                                               std::string(k_observer) + k_models + k_cube)};
     CHECK(read(request).scene->lights.size() == 1);
     request.files = {directory / "loop.toml"};
-    CHECK(read(request).text.find("includes itself") != std::string::npos);
+    CHECK(holds(read(request).text, "includes itself"));
     request.files = {write_file(directory / "missing.toml", "include = [\"gone.toml\"]\nversion = 1\n")};
     const Result missing = read(request);
     REQUIRE(missing.found.size() == 1);
@@ -339,14 +339,12 @@ TEST_CASE("files that cannot be read each have their own message (R11)") {
         REQUIRE(result.found.size() == 1);
         return result.found[0].message;
     };
-    CHECK(message(directory / "gone.toml").find("no such file") != std::string::npos);
-    CHECK(message(directory).find("directory") != std::string::npos);
-    CHECK(message(write_file(directory / "empty.toml", "")).find("empty") != std::string::npos);
-    CHECK(message(write_file(directory / "binary.toml", std::string("a\0b", 3))).find("binary") !=
-          std::string::npos);
-    CHECK(message("/dev/null").find("not a regular file") != std::string::npos);
-    CHECK(message(write_file(directory / "latin.toml", "version = \"\xe9\"\n")).find("UTF-8") !=
-          std::string::npos);
+    CHECK(holds(message(directory / "gone.toml"), "no such file"));
+    CHECK(holds(message(directory), "directory"));
+    CHECK(holds(message(write_file(directory / "empty.toml", "")), "empty"));
+    CHECK(holds(message(write_file(directory / "binary.toml", std::string("a\0b", 3))), "binary"));
+    CHECK(holds(message("/dev/null"), "not a regular file"));
+    CHECK(holds(message(write_file(directory / "latin.toml", "version = \"\xe9\"\n")), "UTF-8"));
 }
 
 TEST_CASE("settings take precedence over files, by name and by number") {
@@ -379,15 +377,15 @@ TEST_CASE("invalid settings are errors that name their flag") {
         CHECK(result.found[0].place.file == "--set " + path);
         return result.found[0].message + " " + result.found[0].hint;
     };
-    CHECK(message("object.bix.size", "2").find("did you mean 'box'?") != std::string::npos);
-    CHECK(message("object.3.size", "2").find("numbered 0 to 0") != std::string::npos);
-    CHECK(message("object.box.sise", "2").find("did you mean 'size'?") != std::string::npos);
-    CHECK(message("object.box.size", "[1").find("not a value") != std::string::npos);
-    CHECK(message("object.box.size", "big").find("expected a number") != std::string::npos);
-    CHECK(message("image.width", "0").find("1 to 65536") != std::string::npos);
-    CHECK(message("image", "0").find("needs a table and a key") != std::string::npos);
-    CHECK(message("image..width", "0").find("empty part") != std::string::npos);
-    CHECK(message("object.box.size", "1\nkey = 2").find("not one value") != std::string::npos);
+    CHECK(holds(message("object.bix.size", "2"), "did you mean 'box'?"));
+    CHECK(holds(message("object.3.size", "2"), "numbered 0 to 0"));
+    CHECK(holds(message("object.box.sise", "2"), "did you mean 'size'?"));
+    CHECK(holds(message("object.box.size", "[1"), "not a value"));
+    CHECK(holds(message("object.box.size", "big"), "expected a number"));
+    CHECK(holds(message("image.width", "0"), "1 to 65536"));
+    CHECK(holds(message("image", "0"), "needs a table and a key"));
+    CHECK(holds(message("image..width", "0"), "empty part"));
+    CHECK(holds(message("object.box.size", "1\nkey = 2"), "not one value"));
 }
 
 TEST_CASE("R13: if no model is named, the user is asked, once for both") {
@@ -396,7 +394,7 @@ TEST_CASE("R13: if no model is named, the user is asked, once for both") {
     candela::SceneRequest request;
     request.ask = [&](const std::string& question) {
         ++asked;
-        CHECK(question.find("phong shading and phong reflection") != std::string::npos);
+        CHECK(holds(question, "phong shading and phong reflection"));
         return true;
     };
     const Result yes = read(scene, request);
@@ -408,7 +406,7 @@ TEST_CASE("R13: if no model is named, the user is asked, once for both") {
     request.ask = [](const std::string&) { return false; };
     CHECK_FALSE(read(scene, request).scene);
     request.ask = nullptr;
-    CHECK(read(scene, request).text.find("--defaults") != std::string::npos);
+    CHECK(holds(read(scene, request).text, "--defaults"));
     request.use_defaults = true;
     CHECK(read(scene, request).scene);
     // If a model is named, or nothing needs shading, nobody is asked.
@@ -439,10 +437,10 @@ TEST_CASE("a material for another model is an error, unless the model came from 
 TEST_CASE("a scene without lights or objects is a scene, with a warning") {
     const Result dark = read(std::string("version = 1\n") + k_observer + k_models + k_cube);
     CHECK(dark.scene);
-    CHECK(dark.text.find("no lights") != std::string::npos);
+    CHECK(holds(dark.text, "no lights"));
     const Result empty = read(std::string("version = 1\n") + k_observer);
     CHECK(empty.scene);
-    CHECK(empty.text.find("no objects") != std::string::npos);
+    CHECK(holds(empty.text, "no objects"));
 }
 
 TEST_CASE("names of lights and objects are unique within their kind") {
@@ -451,7 +449,7 @@ TEST_CASE("names of lights and objects are unique within their kind") {
         "[[object]]\nname = \"box\"\ntype = \"sphere\"\n[[light]]\nname = \"box\"\ntype = \"ambient\"\n");
     REQUIRE(result.found.size() == 1);
     CHECK(result.found[0].place.line == 16);
-    CHECK(result.found[0].message.find("another object is called 'box'") != std::string::npos);
+    CHECK(holds(result.found[0].message, "another object is called 'box'"));
 }
 
 TEST_CASE("a picture narrower than its observer's frame shows as much at the sides as the frame") {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "support/text.h"
+
 import candela.core;
 import candela.schema;
 
@@ -38,8 +40,6 @@ Parameter number(const std::string& name, float minimum, float maximum, double d
 Json schema(const std::vector<Manifest>& installed) {
     return Json::parse(candela::scene_json_schema(installed));
 }
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 }  // namespace
 

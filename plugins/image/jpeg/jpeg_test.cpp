@@ -15,6 +15,7 @@
 
 #include "support/command.h"
 #include "support/decoded.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -131,7 +132,7 @@ TEST_CASE("a JPEG that is cut off anywhere is an error, and so is another file")
         }
     }
     write_file(file, "\x89PNG\r\n\x1a\n");
-    CHECK(problem_of("jpeg", file).find("PNG") != std::string::npos);
+    CHECK(holds(problem_of("jpeg", file), "PNG"));
     CHECK(problem_of("jpeg", scratch_directory() / "nowhere.jpg") == "it cannot be read");
 }
 
@@ -142,5 +143,5 @@ TEST_CASE("a JPEG whose header declares more pixels than its bytes can hold is r
     content.replace(frame + 5, 4, "\xff\x00\xff\x00", 4);
     const fs::path file = scratch_directory() / "claimed.jpg";
     write_file(file, content);
-    CHECK(problem_of("jpeg", file).find("too small for its pixels") != std::string::npos);
+    CHECK(holds(problem_of("jpeg", file), "too small for its pixels"));
 }

@@ -18,6 +18,7 @@
 
 #include "support/command.h"
 #include "support/decoded.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -162,13 +163,13 @@ TEST_CASE("a PNG whose header declares more pixels than its bytes can hold is re
         ::crc32(0, reinterpret_cast<const Bytef*>(header.data()), static_cast<uInt>(header.size())));
     for (std::size_t i = 0; i < 4; ++i) checksum[i] = static_cast<char>(crc >> (24 - 8 * i));
     write_file(image, whole.substr(0, 12) + header + checksum + whole.substr(33));
-    CHECK(problem_of("png", image).find("too small for its pixels") != std::string::npos);
+    CHECK(holds(problem_of("png", image), "too small for its pixels"));
 }
 
 TEST_CASE("a file that is not a PNG is refused as such, and a JPEG by name") {
     const fs::path file = scratch_directory() / "other.png";
     write_file(file, "\xff\xd8\xff\xe0 the rest");
-    CHECK(problem_of("png", file).find("JPEG") != std::string::npos);
+    CHECK(holds(problem_of("png", file), "JPEG"));
     write_file(file, "GIF89a and so on");
     CHECK(problem_of("png", file) == "it is not a PNG file");
     CHECK(problem_of("png", scratch_directory() / "nowhere.png") == "it cannot be opened");

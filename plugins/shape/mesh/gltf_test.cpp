@@ -16,6 +16,7 @@
 #include "support/command.h"
 #include "support/gltf_file.h"
 #include "support/plugins.h"
+#include "support/text.h"
 
 using candela::Mesh;
 using candela::Shape;
@@ -86,8 +87,6 @@ Read read(const std::string& content, const char* name = "a.glb") {
     }
     return result;
 }
-
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
 

@@ -16,6 +16,7 @@
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/samples.h"
+#include "support/text.h"
 
 using candela::Mesh;
 using candela::Shape;
@@ -122,9 +123,8 @@ TEST_CASE("shape/mesh reads the formats that it names, by extension, and no othe
     CHECK(validation_error("a.OBJ", triangle).empty());
     for (const char* const name : {"a.dae", "a.3ds", "a.off", "a", "a.ob", "a.toml"}) {
         INFO(name);
-        CHECK(validation_error(name, triangle)
-                  .find("unsupported mesh extension; expected .obj, .ply, .stl, .gltf or .glb") !=
-              std::string::npos);
+        CHECK(holds(validation_error(name, triangle),
+                    "unsupported mesh extension; expected .obj, .ply, .stl, .gltf or .glb"));
     }
     // The file's content does not matter.
     const std::string off = "OFF\n3 1 3\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
@@ -452,16 +452,14 @@ TEST_CASE("shape/mesh: of several parts, those that are wound inside out are tur
 
     // However little they enclose compared with the others.
     const std::string large = tetrahedron(0, 10, 0, false), small = tetrahedron(50, 0.1, 4, true);
-    CHECK(warnings_about("small.obj", large + small + tetrahedron(60, 0.1, 8, true))
-              .at(0)
-              .find("has 3 parts, 2 of which are closed but wound inside out, so their triangles") !=
-          std::string::npos);
+    CHECK(holds(warnings_about("small.obj", large + small + tetrahedron(60, 0.1, 8, true)).at(0),
+                "has 3 parts, 2 of which are closed but wound inside out, so their triangles"));
 
     // With an open part next to it.
     const std::string open = tetrahedron(0, 1, 0, false).substr(0, right.rfind('f'));
     said = warnings_about("open.obj", open + wrong);
     REQUIRE(said.size() == 1);
-    CHECK(said[0].find("has 2 parts, 1 of which is closed but wound") != std::string::npos);
+    CHECK(holds(said[0], "has 2 parts, 1 of which is closed but wound"));
 }
 
 TEST_CASE("shape/mesh: a cavity keeps its winding, and turns with the part that contains it") {
@@ -480,8 +478,7 @@ TEST_CASE("shape/mesh: a cavity keeps its winding, and turns with the part that 
     // A part that a ray passes through need not contain the part where the ray starts.
     std::string row;
     for (int i = 0; i < 200; ++i) row += tetrahedron(3.0 * i, 1, 4 * i, i % 3 == 0);
-    CHECK(warnings_about("row.obj", row).at(0).find("has 200 parts, 67 of which are closed but wound") !=
-          std::string::npos);
+    CHECK(holds(warnings_about("row.obj", row).at(0), "has 200 parts, 67 of which are closed but wound"));
 }
 
 TEST_CASE("shape/mesh: a pipe, a folder and a device are refused without waiting") {

@@ -4,6 +4,7 @@
 
 #include "support/command.h"
 #include "support/plugins.h"
+#include "support/text.h"
 
 using candela::Mesh;
 using candela::Shape;
@@ -69,8 +70,7 @@ TEST_CASE("shape/mesh: a missing part is refused with the names of the existing 
     CHECK(refusal_of("a.obj", k_obj, "green")
               .ends_with("has no triangles with a material 'green'; its materials: '(none)', 'red' and 'deep "
                          "blue # or so'"));
-    CHECK(refusal_of("a.obj", k_obj, "#9").find("has no triangles with a material '#9'") !=
-          std::string::npos);
+    CHECK(holds(refusal_of("a.obj", k_obj, "#9"), "has no triangles with a material '#9'"));
     CHECK(refusal_of(
               "a.stl",
               "solid b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 7\nendloop\n"

@@ -12,6 +12,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -69,18 +71,14 @@ CommandResult generate(const fs::path& folder, const std::string& scene,
 }
 
 Glb generated(const fs::path& folder, const std::string& scene, const std::vector<std::string>& more = {}) {
-    const CommandResult result = generate(folder, scene, more);
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(generate(folder, scene, more));
     return read_glb(folder / "scene.glb");
 }
 
 /// The scene that `candela import` makes of it.
 std::string imported(const fs::path& folder) {
-    const CommandResult result = run_candela(
-        {"import", (folder / "scene.glb").string(), "-o", (folder / "back.toml").string(), "--force"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(run_candela(
+        {"import", (folder / "scene.glb").string(), "-o", (folder / "back.toml").string(), "--force"}));
     return read_file(folder / "back.toml");
 }
 
@@ -218,7 +216,7 @@ material = {kd = 1, ka = 0}
     INFO(back);
     const auto has = [&](const std::string& line) {
         INFO(line);
-        CHECK(back.find(line + "\n") != std::string::npos);
+        CHECK(holds(back, line + "\n"));
     };
     has("position     = [1.0, 2.0, 4.0]");
     has("fov          = 40.0");
@@ -228,19 +226,16 @@ material = {kd = 1, ka = 0}
     has("color     = [250, 240, 230]");
     has("intensity = 0.5");
     has("direction = [0.33333, -0.66667, -0.66667]");
-    CHECK(back.find("[200, 100, 50]") != std::string::npos);
-    CHECK(back.find("[90, 160, 220]") != std::string::npos);
-    CHECK(back.find("\"ball\"") != std::string::npos);
+    CHECK(holds(back, "[200, 100, 50]"));
+    CHECK(holds(back, "[90, 160, 220]"));
+    CHECK(holds(back, "\"ball\""));
 
     const std::string a = (folder / "a.png").string(), b = (folder / "b.png").string();
-    REQUIRE(run_candela({"render", (folder / "scene.toml").string(), "-o", a}).exit_code == 0);
+    succeeded(run_candela({"render", (folder / "scene.toml").string(), "-o", a}));
     // Imported files with lights get a little ambient light, which the scene does not have.
-    REQUIRE(run_candela({"render", (folder / "back.toml").string(), "-o", b, "--width", "200", "--height",
-                         "100", "--samples", "1", "--set", "light.sky.intensity=0"})
-                .exit_code == 0);
-    const CommandResult difference = run_candela({"diff", a, b, "--tolerance", "1"});
-    INFO(difference.out);
-    CHECK(difference.exit_code == 0);
+    succeeded(run_candela({"render", (folder / "back.toml").string(), "-o", b, "--width", "200", "--height",
+                           "100", "--samples", "1", "--set", "light.sky.intensity=0"}));
+    expect(run_candela({"diff", a, b, "--tolerance", "1"}), 0);
 }
 
 TEST_CASE("target/gltf: an imported metallic-roughness material survives a round trip") {
@@ -266,8 +261,8 @@ TEST_CASE("target/gltf: textures are embedded unchanged, with v from the top, an
     write_file(folder / "quad.obj",
                "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 0.75\nvt 0 0.75\n"
                "f 1/1 2/2 3/3 4/4\n");
-    REQUIRE(run_candela({"render", "-o", (folder / "picture.png").string(), "--width", "8", "--height", "8"})
-                .exit_code == 0);
+    succeeded(
+        run_candela({"render", "-o", (folder / "picture.png").string(), "--width", "8", "--height", "8"}));
     const std::string picture = read_file(folder / "picture.png");
     const std::string scene = std::string(k_scene).replace(
         k_scene.find("file ="), std::string::npos,
@@ -286,15 +281,13 @@ TEST_CASE("target/gltf: textures are embedded unchanged, with v from the top, an
     CHECK(*std::ranges::min_element(v) == 0.25f);
     CHECK(*std::ranges::max_element(v) == 1);
     const std::string back = imported(folder);
-    CHECK(back.find("color_texture_wrap") != std::string::npos);
+    CHECK(holds(back, "color_texture_wrap"));
 
     fs::rename(folder / "picture.png", folder / "kept.png");
-    REQUIRE(run_candela({"render", "-o", (folder / "picture.ppm").string(), "--width", "8", "--height", "8"})
-                .exit_code == 0);
-    const CommandResult refused =
-        generate(folder, std::string(scene).replace(scene.find("picture.png"), 11, "picture.ppm"));
-    CHECK(refused.exit_code == 1);
-    CHECK(refused.err.find("neither a PNG nor a JPEG") != std::string::npos);
+    succeeded(
+        run_candela({"render", "-o", (folder / "picture.ppm").string(), "--width", "8", "--height", "8"}));
+    expect(generate(folder, std::string(scene).replace(scene.find("picture.png"), 11, "picture.ppm")), 1,
+           {"neither a PNG nor a JPEG"});
 }
 
 TEST_CASE(
@@ -320,7 +313,7 @@ direction = [0, -1, 0]
     CHECK(accepted.exit_code == 0);
     for (const std::string& name : {"reflection/phong", "light/ambient", "light/spot", "shading/flat"}) {
         INFO(name);
-        CHECK(refused.err.find(name) != std::string::npos);
+        CHECK(holds(refused.err, name));
         const std::size_t first = accepted.err.find(name);
         CHECK(first != std::string::npos);
         CHECK(accepted.err.find(name, first + 1) == std::string::npos);

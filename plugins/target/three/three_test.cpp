@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -30,10 +32,8 @@ void require_three() {
 /// The scene within the page.
 Json generated(const fs::path& folder, const std::string& scene) {
     const fs::path file = write_file(folder / "scene.toml", scene);
-    const CommandResult result = run_candela(
-        {"generate", file.string(), "--target", "three", "-o", (folder / "made").string(), "--quiet"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(run_candela(
+        {"generate", file.string(), "--target", "three", "-o", (folder / "made").string(), "--quiet"}));
     const std::string page = read_file(folder / "made/scene.html");
     const std::string begin = "id=\"scene\">";
     const std::size_t at = page.find(begin) + begin.size();
@@ -210,10 +210,9 @@ TEST_CASE("target/three: an open mesh with colours at its vertices is correct fr
                 "scale = [0.6, 0.6, 0.6]\nposition = [{}, 0, 0]\n",
                 turn, x);
         const fs::path file = write_file(folder / "scene.toml", k_head + light + objects);
-        const CommandResult result = run_candela({"verify", file.string(), "--target", "three", "--tolerance",
-                                                  "1", "--width", "200", "--height", "120"});
-        INFO(result.out << result.err);
-        CHECK(result.exit_code == 0);
+        expect(run_candela({"verify", file.string(), "--target", "three", "--tolerance", "1", "--width",
+                            "200", "--height", "120"}),
+               0);
     }
 }
 
@@ -221,11 +220,8 @@ TEST_CASE("target/three: without three.js, the error says which files belong whe
     const fs::path folder = scratch_directory(), plugins = CANDELA_TEST_PLUGINS;
     for (const char* const name : {"target-three.so", "target-three.json"})
         fs::copy_file(plugins / name, folder / name, fs::copy_options::overwrite_existing);
-    const CommandResult result = run_candela(
-        {"generate", "--target", "three", "--plugin-dir", folder.string(), "-o", (folder / "made").string()});
-    CHECK(result.exit_code == 1);
-    CHECK(result.err.find("three.js is missing") != std::string::npos);
-    CHECK(result.err.find("npm pack three@") != std::string::npos);
-    CHECK(result.err.find((folder / "target-three").string()) != std::string::npos);
+    expect(run_candela({"generate", "--target", "three", "--plugin-dir", folder.string(), "-o",
+                        (folder / "made").string()}),
+           1, {"three.js is missing", "npm pack three@", (folder / "target-three").string()});
     CHECK_FALSE(fs::exists(folder / "made"));
 }

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -203,7 +205,7 @@ TEST_CASE("the kit names the fault of each faulty plugin, and its exit code is 4
         INFO(fault.plugin << ": " << verdicts.checks.dump(2));
         CHECK(verdicts.exit_code == 4);
         CHECK(verdicts.of(fault.check) == fault.outcome);
-        CHECK(verdicts.messages(fault.check).find(fault.message) != std::string::npos);
+        CHECK(holds(verdicts.messages(fault.check), fault.message));
     }
 }
 
@@ -213,8 +215,8 @@ TEST_CASE("an unread variable of a kernel is a warning, and the plugin conforms"
     INFO(verdicts.checks.dump(2));
     CHECK(verdicts.exit_code == 0);
     CHECK(verdicts.of("kernel as C++") == "warning");
-    CHECK(verdicts.messages("kernel as C++")
-              .find("unfinished-kernel.kernel:11:11: warning: unused variable 'later'") != std::string::npos);
+    CHECK(holds(verdicts.messages("kernel as C++"),
+                "unfinished-kernel.kernel:11:11: warning: unused variable 'later'"));
 }
 
 TEST_CASE("a faultless plugin that needs a file conforms if it is given one, and is not judged without") {
@@ -228,11 +230,11 @@ TEST_CASE("a faultless plugin that needs a file conforms if it is given one, and
     }
     const Verdicts without = judged(library_of("reflection-reads-a-file"), {"--check", "finite"});
     CHECK(without.of("finite") == "skipped");
-    CHECK(without.messages("finite").find("--set NAME=FILE") != std::string::npos);
-    CHECK(
+    CHECK(holds(without.messages("finite"), "--set NAME=FILE"));
+    CHECK(holds(
         judged(library_of("reflection-reads-a-file"), {"--set", "fil=" + file.string(), "--check", "finite"})
-            .messages("finite")
-            .find("it has no parameter 'fil'") != std::string::npos);
+            .messages("finite"),
+        "it has no parameter 'fil'"));
 }
 
 TEST_CASE("an impossible request to the kit is a usage error, not a conforming plugin") {
@@ -252,7 +254,7 @@ TEST_CASE("an impossible request to the kit is a usage error, not a conforming p
         INFO(message << "\n" << result.err << result.out);
         CHECK(result.exit_code == 2);
         CHECK(result.out.empty());
-        CHECK(result.err.find(message) != std::string::npos);
+        CHECK(holds(result.err, message));
     }
 }
 
@@ -283,11 +285,9 @@ TEST_CASE("on one processor, threads that share memory are found without waiting
     };
     const CommandResult shared = repeated(library_of("reflection-shares-its-scratch"));
     INFO(shared.out << shared.err);
-    CHECK(shared.out.find("when 8 threads call it at once") != std::string::npos);
+    CHECK(holds(shared.out, "when 8 threads call it at once"));
     // Of the shipped plugins, this one needs the most calls.
-    const CommandResult sound = repeated(fs::path(CANDELA_TEST_PLUGINS) / "light-distributed.so");
-    INFO(sound.out << sound.err);
-    CHECK(sound.exit_code == 0);
+    expect(repeated(fs::path(CANDELA_TEST_PLUGINS) / "light-distributed.so"), 0);
 }
 
 TEST_CASE("in one process, for a debugger, the verdicts are the same") {
@@ -325,10 +325,10 @@ TEST_CASE("a plugin that never returns is stopped at the time limit, and after t
         for (const json& check : verdicts.checks) {
             if (late == 2) {
                 CHECK(check["outcome"] == "skipped");
-                CHECK(check["messages"].dump().find("2 checks have not finished") != std::string::npos);
+                CHECK(holds(check["messages"].dump(), "2 checks have not finished"));
             } else if (check["outcome"] == "timed out") {
                 ++late;
-                CHECK(check["messages"].dump().find("not finished after 1 s") != std::string::npos);
+                CHECK(holds(check["messages"].dump(), "not finished after 1 s"));
             }
         }
         CHECK(late == 2);
@@ -352,7 +352,7 @@ TEST_CASE("a manifest that disagrees, is missing or is broken is found before an
     const fs::path library = directory / "reflection-faultless.so",
                    manifest = directory / "reflection-faultless.json";
     fs::copy_file(library_of("reflection-faultless"), library);
-    CHECK(judged(library).messages("handshake").find("cannot be read") != std::string::npos);
+    CHECK(holds(judged(library).messages("handshake"), "cannot be read"));
     std::string text = read_file(library_of("reflection-faultless").replace_extension(".json"));
     write_file(manifest, text);
     CHECK(judged(library).exit_code == 0);
@@ -361,7 +361,7 @@ TEST_CASE("a manifest that disagrees, is missing or is broken is found before an
     write_file(manifest, text.substr(0, at + 10) + "Other" + text.substr(at + 10));
     const Verdicts wrong = judged(library);
     CHECK(wrong.of("handshake") == "failed");
-    CHECK(wrong.messages("handshake").find("disagrees with it about its title") != std::string::npos);
+    CHECK(holds(wrong.messages("handshake"), "disagrees with it about its title"));
     CHECK(wrong.of("finite") == "skipped");
     write_file(manifest, "{");
     CHECK(judged(library).of("handshake") == "failed");
@@ -380,17 +380,15 @@ TEST_CASE("a library under another name, or with a missing dependency, is named"
         run_program({CANDELA_TEST_COMPILER, "-shared", "-o", needed.string(), empty.string()}).exit_code ==
         0);
     const fs::path lonely = directory / "reflection-lonely.so";
-    REQUIRE(run_program({CANDELA_TEST_COMPILER, "-shared", "-Wl,--no-as-needed", "-o", lonely.string(),
-                         empty.string(), needed.string()})
-                .exit_code == 0);
+    succeeded(run_program({CANDELA_TEST_COMPILER, "-shared", "-Wl,--no-as-needed", "-o", lonely.string(),
+                           empty.string(), needed.string()}));
     fs::copy_file(directory / "reflection-other.json", directory / "reflection-lonely.json");
     fs::remove(needed);
     const Verdicts verdicts = judged(lonely);
     CHECK(verdicts.of("handshake") == "failed");
-    CHECK(verdicts.messages("handshake").find("libnobodyhasthis.so, which is not installed here") !=
-          std::string::npos);
-    CHECK(verdicts.messages("handshake").find("build it again") == std::string::npos);
-    CHECK(verdicts.messages("handshake").find("Bad file descriptor") == std::string::npos);
+    CHECK(holds(verdicts.messages("handshake"), "libnobodyhasthis.so, which is not installed here"));
+    CHECK_FALSE(holds(verdicts.messages("handshake"), "build it again"));
+    CHECK_FALSE(holds(verdicts.messages("handshake"), "Bad file descriptor"));
 }
 
 #ifdef CANDELA_TEST_THREAD_SANITIZER
@@ -405,11 +403,9 @@ TEST_CASE(
     const CommandResult racing = threads("reflection-counts-its-calls");
     INFO(racing.out << racing.err);
     CHECK(racing.exit_code != 0);
-    CHECK(racing.err.find("WARNING: ThreadSanitizer: data race") != std::string::npos);
-    CHECK(racing.err.find("reflection-counts-its-calls.cpp:9") != std::string::npos);
-    const CommandResult sound = threads("reflection-faultless");
-    INFO(sound.out << sound.err);
-    CHECK(sound.exit_code == 0);
+    CHECK(holds(racing.err, "WARNING: ThreadSanitizer: data race"));
+    CHECK(holds(racing.err, "reflection-counts-its-calls.cpp:9"));
+    const CommandResult sound = expect(threads("reflection-faultless"), 0);
     CHECK(sound.err == "");
 }
 #endif

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 
@@ -46,7 +48,7 @@ TEST_CASE(
     for (const Survived& fault : faults) {
         const CommandResult result = rendered(fault.use, image);
         INFO(fault.use.front() << "\n" << result.err);
-        CHECK(result.err.find(fault.message) != std::string::npos);
+        CHECK(holds(result.err, fault.message));
         CHECK(result.exit_code == 1);
         CHECK_FALSE(fs::exists(image));
     }
@@ -54,10 +56,8 @@ TEST_CASE(
                                       "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
                                       "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"cube\"\n");
     const CommandResult ambient =
-        rendered({scene.string(), "--shading=flat", "--reflection=throws-in-ambient"}, image);
-    INFO(ambient.err);
-    CHECK(ambient.exit_code == 1);
-    CHECK(ambient.err.find("plugin reflection/throws-in-ambient: no ambience") != std::string::npos);
+        expect(rendered({scene.string(), "--shading=flat", "--reflection=throws-in-ambient"}, image), 1);
+    CHECK(holds(ambient.err, "plugin reflection/throws-in-ambient: no ambience"));
 }
 
 TEST_CASE(
@@ -70,26 +70,20 @@ TEST_CASE(
         INFO(size << "\n" << result.err);
         CHECK((result.exit_code == 0 || result.exit_code == 1));
         if (result.exit_code == 1)
-            CHECK(result.err.find("plugin reflection/writes-past-the-end wrote past the end of its batch") !=
-                  std::string::npos);
+            CHECK(holds(result.err, "plugin reflection/writes-past-the-end wrote past the end of its batch"));
     }
-    const CommandResult hasty = rendered({"--reflection=hasty-at-the-end"}, directory / "d.png");
-    INFO(hasty.err);
-    CHECK(hasty.exit_code == 1);
-    CHECK(hasty.err.find("plugin reflection/hasty-at-the-end ") != std::string::npos);
+    const CommandResult hasty = expect(rendered({"--reflection=hasty-at-the-end"}, directory / "d.png"), 1);
+    CHECK(holds(hasty.err, "plugin reflection/hasty-at-the-end "));
     // 512 pixels per side fill whole batches, where it is found.
     CHECK(rendered({"--reflection=writes-past-the-end"}, directory / "b.png").exit_code == 1);
-    const CommandResult added = rendered({"--reflection=adds-past-the-end"}, directory / "c.png");
-    INFO(added.err);
-    CHECK(added.exit_code == 1);
-    CHECK(added.err.find("plugin reflection/adds-past-the-end wrote past the end of its batch") !=
-          std::string::npos);
+    expect(rendered({"--reflection=adds-past-the-end"}, directory / "c.png"), 1,
+           {"plugin reflection/adds-past-the-end wrote past the end of its batch"});
 }
 
 TEST_CASE("listing, checking and using other plugins never loads one that traps") {
-    CHECK(run_candela({"list", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS}).exit_code == 0);
-    CHECK(run_candela({"describe", "reflection/traps-on-load", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS})
-              .exit_code == 0);
+    expect(run_candela({"list", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS}), 0);
+    expect(run_candela({"describe", "reflection/traps-on-load", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS}),
+           0);
     CHECK(rendered({}, scratch_directory() / "a.png").exit_code == 0);
 }
 
@@ -107,10 +101,9 @@ TEST_CASE("the doctor survives a plugin that traps, and names each plugin's prob
     for (const char* const file : {"reflection-faultless.so", "reflection-faultless.json"})
         fs::copy_file(fs::path(CANDELA_TEST_FAULTY_PLUGINS) / file, directory / "second" / file);
     const CommandResult result =
-        run_candela({"plugin", "doctor", "--plugin-dir", directory.string(), "--plugin-dir",
-                     (directory / "second").string(), "--plugin-dir", directory.string()});
-    INFO(result.out << result.err);
-    CHECK(result.exit_code == 1);
+        expect(run_candela({"plugin", "doctor", "--plugin-dir", directory.string(), "--plugin-dir",
+                            (directory / "second").string(), "--plugin-dir", directory.string()}),
+               1);
     for (const char* const part :
          {"reflection-traps-on-load.so    refused: loading it ended the process with signal",
           "in use: reflection/faultless 1.0.0", "hidden by",
@@ -118,7 +111,7 @@ TEST_CASE("the doctor survives a plugin that traps, and names each plugin's prob
           "shape-alone.so                 refused: its manifest exists, but the library does not",
           "in use: light/point"}) {
         INFO(part);
-        CHECK(result.out.find(part) != std::string::npos);
+        CHECK(holds(result.out, part));
     }
 }
 
@@ -147,12 +140,9 @@ TEST_CASE(
         INFO(what);
         CommandSetup setup;
         setup.environment = {{"FAULTY_ON_LOAD", what}};
-        const CommandResult doctor =
-            run_candela({"plugin", "doctor", "--time-limit", "2", "--plugin-dir", directory.string()}, setup);
-        INFO(doctor.out << doctor.err);
-        CHECK(doctor.exit_code == 1);
-        CHECK(doctor.out.find(message) != std::string::npos);
-        CHECK(doctor.out.find("in use: light/point") != std::string::npos);
+        expect_out(
+            run_candela({"plugin", "doctor", "--time-limit", "2", "--plugin-dir", directory.string()}, setup),
+            1, {message, "in use: light/point"});
     }
     for (const auto& [what, message] : {Ending{"exit", "ended the process with exit code 0"},
                                         Ending{"abort", "ended the process with signal"}}) {
@@ -163,7 +153,7 @@ TEST_CASE(
             run_program({CANDELA_TEST_MANIFEST_WRITER, library.string(), manifest.string()}, setup);
         INFO(what << writer.out << writer.err);
         CHECK(writer.exit_code == 1);
-        CHECK(writer.err.find(message) != std::string::npos);
+        CHECK(holds(writer.err, message));
         CHECK(!fs::exists(manifest));
     }
 }
@@ -188,8 +178,8 @@ TEST_CASE("however loading a library ends, the conformance kit reports it and te
             run_candela({"plugin", "test", library.string(), "--time-limit", "2"}, setup);
         INFO(what << result.out << result.err);
         CHECK(result.exit_code == 4);
-        CHECK(result.out.find(message) != std::string::npos);
-        CHECK(result.out.find("it cannot be loaded") != std::string::npos);
+        CHECK(holds(result.out, message));
+        CHECK(holds(result.out, "it cannot be loaded"));
     }
 }
 
@@ -205,18 +195,14 @@ TEST_CASE("the doctor reports a refused plugin once, whether its folder's path i
     const CommandResult result =
         run_candela({"plugin", "doctor", "--plugin-dir", "plugins"}, in_directory(directory));
     INFO(result.out);
-    CHECK(result.out.find("reflection-other.so            refused: its manifest disagrees") !=
-          std::string::npos);
-    CHECK(result.out.find("refused: plugin") == std::string::npos);
+    CHECK(holds(result.out, "reflection-other.so            refused: its manifest disagrees"));
+    CHECK_FALSE(holds(result.out, "refused: plugin"));
 }
 
 TEST_CASE("a new plugin with an existing plugin's name hides it, with a warning") {
     const fs::path directory = scratch_directory();
-    const CommandResult hiding =
-        run_candela({"plugin", "new", "reflection", "lambert"}, in_directory(directory));
-    INFO(hiding.err);
-    CHECK(hiding.exit_code == 0);
-    CHECK(hiding.err.find("a reflection plugin 'lambert' already exists") != std::string::npos);
+    expect(run_candela({"plugin", "new", "reflection", "lambert"}, in_directory(directory)), 0,
+           {"a reflection plugin 'lambert' already exists"});
     CHECK(run_candela({"plugin", "new", "reflection", "velvet"}, in_directory(directory)).err.empty());
 }
 
@@ -226,15 +212,14 @@ TEST_CASE("plugins that every user can change are refused, unless explicitly all
         fs::copy_file(fs::path(CANDELA_TEST_FAULTY_PLUGINS) / file, directory / file);
     const std::vector<std::string> words{"describe", "reflection/faultless", "--plugin-dir",
                                          directory.string()};
-    CHECK(run_candela(words).exit_code == 0);
+    expect(run_candela(words), 0);
     const auto refused = [&] {
         const CommandResult result = run_candela(words);
-        CHECK(result.err.find("is writable by every user, so anybody could run code here") !=
-              std::string::npos);
+        CHECK(holds(result.err, "is writable by every user, so anybody could run code here"));
         CHECK(result.exit_code == 1);
         std::vector<std::string> trusting = words;
         trusting.emplace_back("--allow-untrusted-plugins");
-        CHECK(run_candela(trusting).exit_code == 0);
+        expect(run_candela(trusting), 0);
     };
     fs::permissions(directory / "reflection-faultless.so", fs::perms::others_write, fs::perm_options::add);
     refused();

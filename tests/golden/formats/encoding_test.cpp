@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
 #include "support/samples.h"
 
 namespace {
@@ -34,7 +35,7 @@ TEST_CASE("scene colours are decoded from sRGB, and 8-bit pictures are encoded a
                                                   "[0, 0, 0]\n[image]\nwidth = 9\nheight = 9\n"
                                                   "background = [188, 64, 5]\ncolor_management = \"{}\"\n",
                                                   management));
-        REQUIRE(run_candela({"render", scene.string(), "-o", (directory / file).string()}).exit_code == 0);
+        succeeded(run_candela({"render", scene.string(), "-o", (directory / file).string()}));
         return middle_of(directory / file);
     };
     // 188, 64 and 5 of 255 decode to 0.5029, 0.05127 and 0.001518 (IEC 61966-2-1).

@@ -15,6 +15,8 @@
 #include <vector>
 
 #include "support/command.h"
+#include "support/expect.h"
+#include "support/text.h"
 
 namespace fs = std::filesystem;
 using Catch::Approx;
@@ -55,10 +57,7 @@ Layers read_layers(const fs::path& file) {
 Layers render_layers(const fs::path& folder, const std::string& scene, const std::string& terms) {
     const auto file = write_file(folder / "scene.toml", scene);
     const auto image = folder / "picture.exr";
-    const CommandResult result =
-        run_candela({"render", file.string(), "-o", image.string(), "--terms", terms, "--quiet"});
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
+    succeeded(run_candela({"render", file.string(), "-o", image.string(), "--terms", terms, "--quiet"}));
     return read_layers(image);
 }
 
@@ -248,7 +247,7 @@ TEST_CASE("terms of a format without layers are files next to the picture, mappe
                                               "--terms", "diffuse,normal,depth,light"});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
-    CHECK(result.err.find("5 terms in files next to it") != std::string::npos);
+    CHECK(holds(result.err, "5 terms in files next to it"));
     const auto pixel = [&](const std::string& name, int x, int y) {
         const std::string ppm = read_file(folder / name);
         const std::size_t head = ppm.size() - std::size_t{60 * 60 * 3};
@@ -272,10 +271,8 @@ TEST_CASE("terms do not depend on the number of threads") {
     std::vector<std::string> images;
     for (const char* const threads : {"1", "3"}) {
         const auto image = folder / (std::string(threads) + ".exr");
-        const CommandResult result = run_candela({"render", file.string(), "-o", image.string(), "--terms",
-                                                  "all", "--threads", threads, "--quiet"});
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
+        succeeded(run_candela({"render", file.string(), "-o", image.string(), "--terms", "all", "--threads",
+                               threads, "--quiet"}));
         images.push_back(read_file(image));
     }
     CHECK(images[0] == images[1]);
@@ -293,10 +290,6 @@ TEST_CASE("an unknown or unwritable term is an error that lists the possible one
         INFO(result.err);
         CHECK(result.exit_code == 2);
         return result.err;
-    };
-    const auto holds = [](const std::string& text, const std::string& part) {
-        INFO(text);
-        return text.find(part) != std::string::npos;
     };
     const std::string image = (folder / "a.png").string();
     CHECK(
