@@ -11,6 +11,7 @@
 #include "support/box_scene.h"
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -28,20 +29,16 @@ keys = [[0.0, 9.0], [0.5, 20.0]]
 )";
 }
 
-CommandSetup in(const fs::path& directory) {
-    return {.input = "", .environment = {}, .directory = directory};
-}
+CommandSetup in(const Folder& directory) { return {.input = "", .environment = {}, .directory = directory}; }
 
-fs::path with_scene() {
-    const fs::path directory = scratch_directory();
-    write_file(directory / "scene.toml", scene_text());
+Folder with_scene() {
+    const Folder directory;
+    directory.write("scene.toml", scene_text());
     return directory;
 }
 
-CommandResult animate(const fs::path& directory, std::vector<std::string> more = {}) {
-    std::vector<std::string> words = {"animate", "scene.toml"};
-    words.insert(words.end(), more.begin(), more.end());
-    return run_candela(words, in(directory));
+CommandResult animate(const Folder& directory, const std::vector<std::string>& more = {}) {
+    return directory.run("animate scene.toml", more);
 }
 
 /// When a file was last written, and its identity in the file system.
@@ -59,7 +56,7 @@ std::vector<std::string> names(const fs::path& folder) {
 }  // namespace
 
 TEST_CASE("every frame is the picture that render --frame draws") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     const CommandResult result = animate(directory, {"-o", "frames/%03d.png"});
     INFO(result.err);
     REQUIRE(result.exit_code == 0);
@@ -67,35 +64,35 @@ TEST_CASE("every frame is the picture that render --frame draws") {
     CHECK(names(directory / "frames") == std::vector<std::string>{".candela", "000.png", "001.png", "002.png",
                                                                   "003.png", "004.png", "005.png"});
     for (int i = 0; i < 6; ++i) {
-        succeeded(run_candela({"render", "scene.toml", "--frame", std::to_string(i), "-o", "one.png"},
-                              in(directory)));
-        CHECK(read_file(directory / "one.png") ==
+        succeeded(
+            directory.run_words({"render", "scene.toml", "--frame", std::to_string(i), "-o", "one.png"}));
+        CHECK(directory.read("one.png") ==
               read_file(directory / "frames" / ("00" + std::to_string(i) + ".png")));
     }
-    CHECK(read_file(directory / "frames/000.png") != read_file(directory / "frames/001.png"));
+    CHECK(directory.read("frames/000.png") != directory.read("frames/001.png"));
 }
 
 TEST_CASE("frames that are complete and made from the same inputs are kept, and others are rendered again") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     REQUIRE(animate(directory, {"--frames", "0..2"}).exit_code == 0);
-    const std::string whole = read_file(directory / "frames/0001.png");
+    const std::string whole = directory.read("frames/0001.png");
     // Truncated, lost, and written by another program.
-    write_file(directory / "frames/0001.png", whole.substr(0, whole.size() / 2));
+    directory.write("frames/0001.png", whole.substr(0, whole.size() / 2));
     fs::remove(directory / "frames/0002.png");
     const auto before = stamp(directory / "frames/0000.png");
     CommandResult result = animate(directory, {"--frames", "0..2"});
     CHECK(holds(result.err, "3 frames, 1 of them already up to date"));
     CHECK(stamp(directory / "frames/0000.png") == before);
-    CHECK(read_file(directory / "frames/0001.png") == whole);
-    CHECK(fs::exists(directory / "frames/0002.png"));
+    CHECK(directory.read("frames/0001.png") == whole);
+    CHECK(directory.has("frames/0002.png"));
 
     // The light gets brighter in frames 1 to 5; frame 0 is unchanged.
     std::string scene = scene_text();
     scene.replace(scene.find("20.0"), 4, "30.0");
-    write_file(directory / "scene.toml", scene);
+    directory.write("scene.toml", scene);
     result = animate(directory, {"--frames", "0..2"});
     CHECK(holds(result.err, "1 of them already up to date"));
-    CHECK(read_file(directory / "frames/0001.png") != whole);
+    CHECK(directory.read("frames/0001.png") != whole);
 
     result = animate(directory, {"--frames", "0..2", "--force"});
     CHECK_FALSE(holds(result.err, "already up to date"));
@@ -104,27 +101,27 @@ TEST_CASE("frames that are complete and made from the same inputs are kept, and 
 }
 
 TEST_CASE("a changed mesh makes animate render its frames again") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     const auto tetrahedron = [](const std::string& height) {
         return "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 " + height + " 0\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 1 3 4\n";
     };
-    write_file(directory / "t.obj", tetrahedron("1"));
-    write_file(directory / "scene.toml",
-               scene_text() + "[[object]]\ntype = \"mesh\"\nfile = \"t.obj\"\nposition = [1, 1, 0]\n");
+    directory.write("t.obj", tetrahedron("1"));
+    directory.write("scene.toml",
+                    scene_text() + "[[object]]\ntype = \"mesh\"\nfile = \"t.obj\"\nposition = [1, 1, 0]\n");
     REQUIRE(animate(directory, {"--frames", "3"}).exit_code == 0);
     CHECK(holds(animate(directory, {"--frames", "3"}).err, "1 of them already up to date"));
-    write_file(directory / "t.obj", tetrahedron("2"));
+    directory.write("t.obj", tetrahedron("2"));
     CHECK_FALSE(holds(animate(directory, {"--frames", "3"}).err, "already up to date"));
 }
 
 TEST_CASE("frames are chosen by --frames and --step") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     REQUIRE(animate(directory, {"-o", "%d.ppm", "--frames", "1..5", "--step", "3"}).exit_code == 0);
     CHECK(names(directory) == std::vector<std::string>{".candela", "1.ppm", "4.ppm", "scene.toml"});
 }
 
 TEST_CASE("two processes that write the same frames at once are harmless") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     RunningProgram one({CANDELA_TEST_COMMAND, "animate", "scene.toml", "--force"}, in(directory));
     RunningProgram other({CANDELA_TEST_COMMAND, "animate", "scene.toml", "--force"}, in(directory));
     CHECK(one.wait().exit_code == 0);
@@ -135,8 +132,8 @@ TEST_CASE("two processes that write the same frames at once are harmless") {
 }
 
 TEST_CASE("messages explain patterns, ranges and scenes that yield no frames") {
-    const fs::path directory = with_scene();
-    write_file(directory / "still.toml", box_scene(33, 21));
+    const Folder directory = with_scene();
+    directory.write("still.toml", box_scene(33, 21));
     const std::vector<std::pair<std::vector<std::string>, std::string>> mistakes = {
         {{"scene.toml", "-o", "frames/a.png"}, "expected a placeholder for their numbers: frames/a%04d.png"},
         {{"scene.toml", "-o", "%04d-%d.png"}, "more than one placeholder for a frame's number"},
@@ -161,42 +158,42 @@ TEST_CASE("messages explain patterns, ranges and scenes that yield no frames") {
     for (const auto& [words, part] : mistakes) {
         std::vector<std::string> all = {"animate"};
         all.insert(all.end(), words.begin(), words.end());
-        expect(run_candela(all, in(directory)), 2, {part});
+        expect(directory.run_words(all), 2, {part});
     }
     CHECK(names(directory) == std::vector<std::string>{"scene.toml", "still.toml"});
-    expect(run_candela({"render", "scene.toml", "--frame", "6"}, in(directory)), 2, {"there is no frame 6"});
+    expect(directory.run("render scene.toml --frame 6"), 2, {"there is no frame 6"});
 }
 
 TEST_CASE("a mistake in a late frame is found before the first is rendered") {
-    const fs::path directory = with_scene();
-    write_file(directory / "scene.toml", scene_text() +
-                                             "[[animation.track]]\npath = \"object.box.position\"\nkeys = "
-                                             "[[0, [0, 0, 0]], [0.4, [5, 0, 0]]]\n");
+    const Folder directory = with_scene();
+    directory.write("scene.toml", scene_text() +
+                                      "[[animation.track]]\npath = \"object.box.position\"\nkeys = "
+                                      "[[0, [0, 0, 0]], [0.4, [5, 0, 0]]]\n");
     for (const char* const verb : {"animate", "check"}) {
-        expect(run_candela({verb, "scene.toml"}, in(directory)), 3,
+        expect(directory.run_words({verb, "scene.toml"}), 3,
                {"scene.toml:29:", "in frame 5, by the track of 'object.box.position'"});
     }
-    CHECK_FALSE(fs::exists(directory / "frames"));
+    CHECK_FALSE(directory.has("frames"));
     // The earlier frames are intact.
     CHECK(animate(directory, {"--frames", "0..3"}).exit_code == 0);
 }
 
 TEST_CASE("check sums up the animation") {
-    const fs::path directory = with_scene();
-    const CommandResult text = run_candela({"check", "scene.toml"}, in(directory));
+    const Folder directory = with_scene();
+    const CommandResult text = directory.run("check scene.toml");
     CHECK(holds(text.out,
                 "film      6 frames, 12 per second, 0.5 s (the observer's orbit, light.lamp.intensity)"));
-    const CommandResult json = run_candela({"check", "scene.toml", "--json"}, in(directory));
+    const CommandResult json = directory.run("check scene.toml --json");
     CHECK(holds(json.out, "\"frames\": 6"));
 }
 
 TEST_CASE("ffmpeg makes films of all frames, and no other files remain") {
-    const fs::path directory = with_scene();
+    const Folder directory = with_scene();
     succeeded(animate(directory, {"-o", "film.mp4", "-o", "out/film.gif"}));
     CHECK(names(directory) == std::vector<std::string>{"film.mp4", "out", "scene.toml"});
     CHECK(names(directory / "out") == std::vector<std::string>{"film.gif"});
-    CHECK(read_file(directory / "film.mp4").substr(4, 4) == "ftyp");
-    CHECK(read_file(directory / "out/film.gif").starts_with("GIF89a"));
+    CHECK(directory.read("film.mp4").substr(4, 4) == "ftyp");
+    CHECK(directory.read("out/film.gif").starts_with("GIF89a"));
     const CommandResult probe =
         run_program({"ffprobe", "-v", "error", "-count_frames", "-show_entries",
                      "stream=width,height,nb_read_frames,r_frame_rate", "-of", "csv=p=0", "film.mp4"},
@@ -205,22 +202,17 @@ TEST_CASE("ffmpeg makes films of all frames, and no other files remain") {
 }
 
 TEST_CASE("a film without ffmpeg is an error that names ffmpeg, before anything is rendered") {
-    const fs::path directory = with_scene();
-    expect(run_candela({"animate", "scene.toml", "-o", "film.mp4"},
-                       {.input = "",
-                        .environment = {{"PATH", (directory / "nothing").string()}},
-                        .directory = directory}),
+    const Folder directory = with_scene();
+    expect(directory.run("animate scene.toml -o film.mp4", {}, {{"PATH", (directory / "nothing").string()}}),
            1, {"apt install ffmpeg"});
     CHECK(names(directory) == std::vector<std::string>{"scene.toml"});
 }
 
 TEST_CASE("new --animation writes an animated scene that is valid in all frames") {
-    const fs::path directory = scratch_directory();
-    expect(run_candela({"new", "--animation"}, in(directory)), 0, {"candela animate scene.toml"});
-    const CommandResult check = run_candela({"check", "scene.toml"}, in(directory));
-    CHECK(check.exit_code == 0);
+    const Folder directory;
+    expect(directory.run("new --animation"), 0, {"candela animate scene.toml"});
+    const CommandResult check = expect_out(directory.run("check scene.toml"), 0, {"96 frames"});
     CHECK(check.err.empty());
-    CHECK(holds(check.out, "96 frames"));
 }
 
 namespace {
@@ -238,8 +230,8 @@ std::string with_tracks(int count, bool are_all_of_one) {
 }
 
 CommandResult checked_within(rlim_t seconds, const std::string& scene) {
-    const fs::path directory = scratch_directory();
-    write_file(directory / "scene.toml", scene);
+    const Folder directory;
+    directory.write("scene.toml", scene);
     CommandSetup setup = in(directory);
     setup.prepare = [seconds] {
         const rlimit time{seconds, seconds};

@@ -12,8 +12,6 @@
 #include "support/text.h"
 #include "support/valid_scene.h"
 
-namespace fs = std::filesystem;
-
 namespace {
 
 /// One place in the valid scene, and its replacement. An @ is not part of the text: it marks the place that

@@ -6,7 +6,6 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
-#include "support/text.h"
 
 TEST_CASE("bench: the figures are positive and consistent") {
     const CommandResult result = succeeded(run_candela(

@@ -24,10 +24,8 @@ constexpr const char* k_png_signature = "\x89PNG\r\n\x1a\n";
 }  // namespace
 
 TEST_CASE("a missing or unknown verb is a usage error with help") {
-    const CommandResult none = run_candela({});
-    CHECK(none.exit_code == 2);
+    const CommandResult none = expect(run_candela({}), 2, {"Verbs"});
     CHECK(none.out.empty());
-    CHECK(holds(none.err, "Verbs"));
     expect(run_candela({"redner"}), 2, {"did you mean 'render'?"});
 }
 
@@ -95,10 +93,9 @@ TEST_CASE("flags may precede the scene") {
 TEST_CASE("an invalid scene has exit code 3, and no picture is written") {
     const Folder directory;
     const std::string file = directory.write("scene.toml", scene() + "[image2]\n").string();
-    const CommandResult result = run_candela({"render", file, "-o", (directory / "a.png").string()});
-    CHECK(result.exit_code == 3);
+    const CommandResult result = expect(run_candela({"render", file, "-o", (directory / "a.png").string()}),
+                                        3, {file + ":18:2: error: unknown key 'image2' in the scene"});
     CHECK(result.out.empty());
-    CHECK(holds(result.err, file + ":18:2: error: unknown key 'image2' in the scene"));
     CHECK_FALSE(directory.has("a.png"));
     expect(run_candela({"check", file}), 3);
     expect(run_candela({"render", (directory / "none.toml").string()}), 1);
@@ -226,9 +223,8 @@ TEST_CASE("list and describe show the contents of manifests") {
 TEST_CASE("refused plugins are warnings on standard error, and the others still work") {
     const Folder directory;
     directory.write("reflection-text.so", "no library");
-    const CommandResult list = run_candela({"list", "--plugin-dir", directory.path().string()});
-    CHECK(list.exit_code == 0);
-    CHECK(holds(list.err, "reflection-text.so' is refused: its manifest"));
+    const CommandResult list = expect(run_candela({"list", "--plugin-dir", directory.path().string()}), 0,
+                                      {"reflection-text.so' is refused: its manifest"});
     CHECK(holds(list.out, "blinn-phong"));
     expect(run_candela({"list", "--plugin-dir", (directory / "none").string()}), 1);
 }

@@ -3,17 +3,16 @@
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
 #include <cstddef>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
+#include "support/ppm.h"
 #include "support/text.h"
 
-namespace fs = std::filesystem;
 using Catch::Approx;
 using Json = nlohmann::json;
 
@@ -45,54 +44,19 @@ color = [255, 255, 255]
 kd = 0.8
 )";
 
-struct Ppm {
-    int width = 0, height = 0;
-    std::string pixels;
-
-    std::string part(int x, int y, int across, int down) const {
-        std::string result;
-        for (int row = y; row < y + down; ++row)
-            result += pixels.substr(3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
-                                         static_cast<std::size_t>(x)),
-                                    3 * static_cast<std::size_t>(across));
-        return result;
-    }
-};
-
-Ppm ppm_in(const fs::path& file) {
-    const std::string text = read_file(file);
-    Ppm image;
-    std::istringstream head(text);
-    std::string magic;
-    int largest = 0;
-    head >> magic >> image.width >> image.height >> largest;
-    REQUIRE(magic == "P6");
-    image.pixels = text.substr(text.size() - 3 * static_cast<std::size_t>(image.width) *
-                                                 static_cast<std::size_t>(image.height));
-    return image;
-}
-
-class Folder {
+class Sheets : public Folder {
   public:
-    Folder() : path_(scratch_directory()) { write_file(path_ / "face.toml", k_face); }
+    Sheets() : Folder({{"face.toml", k_face}}) {}
 
-    CommandResult run(std::vector<std::string> words) const {
-        return run_candela(words, {.input = "", .environment = {}, .directory = path_});
-    }
     Ppm made(const std::vector<std::string>& words, const std::string& file) const {
-        succeeded(run(words));
-        return ppm_in(path_ / file);
+        succeeded(run_words(words));
+        return read_ppm(*this / file);
     }
-    std::string error(std::vector<std::string> words, int exit_code) const {
-        words.insert(words.begin(), {"compare", "face.toml"});
-        const CommandResult result = expect(run(words), exit_code);
-        CHECK_FALSE(fs::exists(path_ / "comparison.png"));
+    std::string error(const std::vector<std::string>& words, int exit_code) const {
+        const CommandResult result = expect(run("compare face.toml", words), exit_code);
+        CHECK_FALSE(has("comparison.png"));
         return result.err;
     }
-    fs::path operator/(const std::string& name) const { return path_ / name; }
-
-  private:
-    fs::path path_;
 };
 
 constexpr int k_margin = 4, k_line = 10;
@@ -100,7 +64,7 @@ constexpr int k_margin = 4, k_line = 10;
 }  // namespace
 
 TEST_CASE("each picture on a sheet is, byte for byte, the one that `render` makes of that combination") {
-    const Folder folder;
+    const Sheets folder;
     const std::vector<std::string> reflections{"lambert", "half-lambert", "phong"}, shadings{"flat", "phong"};
     const Ppm sheet = folder.made({"compare", "face.toml", "--reflection", "lambert,half-lambert,phong",
                                    "--shading=flat,phong", "-o", "sheet.ppm"},
@@ -115,7 +79,7 @@ TEST_CASE("each picture on a sheet is, byte for byte, the one that `render` make
             const int x = k_margin + static_cast<int>(column) * (60 + k_margin),
                       y = k_margin + static_cast<int>(row) * (40 + 2 * k_margin + k_line);
             INFO(reflections[column] << " " << shadings[row]);
-            CHECK(sheet.part(x, y, 60, 40) == alone.pixels);
+            CHECK(sheet.part(x, y, 60, 40) == alone.bytes);
             // Its label: ink on paper below it.
             const std::string label = sheet.part(x, y + 40 + k_margin, 60, k_line);
             CHECK(label.find_first_not_of(label.front()) != std::string::npos);
@@ -124,7 +88,7 @@ TEST_CASE("each picture on a sheet is, byte for byte, the one that `render` make
 }
 
 TEST_CASE("values are compared like models, and a single axis is broken into rows") {
-    const Folder folder;
+    const Sheets folder;
     const Ppm sheet = folder.made({"compare", "face.toml", "--vary", "light.sun.intensity=0.2,0.4,0.6,0.8",
                                    "--vary", "object.0.color=[255,0,0]", "--columns=2", "-o", "sheet.ppm"},
                                   "sheet.ppm");
@@ -136,14 +100,14 @@ TEST_CASE("values are compared like models, and a single axis is broken into row
 }
 
 TEST_CASE("with --difference, a sheet shows how much each picture differs from the first") {
-    const Folder folder;
+    const Sheets folder;
     const CommandResult result =
-        folder.run({"compare", "face.toml", "--reflection=lambert,half-lambert,lambert ", "--difference",
-                    "--json", "-o", "sheet.ppm"});
+        folder.run_words({"compare", "face.toml", "--reflection=lambert,half-lambert,lambert ",
+                          "--difference", "--json", "-o", "sheet.ppm"});
     CHECK(result.exit_code != 0);  // "lambert " is not a model
-    const CommandResult sound =
-        succeeded(folder.run({"compare", "face.toml", "--reflection=lambert,half-lambert", "--vary",
-                              "light.sun.intensity=1,0.5", "--difference", "--json", "-o", "sheet.ppm"}));
+    const CommandResult sound = succeeded(
+        folder.run_words({"compare", "face.toml", "--reflection=lambert,half-lambert", "--vary",
+                          "light.sun.intensity=1,0.5", "--difference", "--json", "-o", "sheet.ppm"}));
     const Json images = Json::parse(sound.out)["pictures"];
     REQUIRE(images.size() == 4);
     CHECK_FALSE(images[0].contains("difference"));
@@ -155,24 +119,25 @@ TEST_CASE("with --difference, a sheet shows how much each picture differs from t
     CHECK(images[1]["difference"]["mean"].get<double>() == Approx(13));
     CHECK(images[2]["difference"]["maximum"].get<double>() == Approx(51));
     CHECK(images[3]["difference"]["rmse"].get<double>() == Approx(45).margin(1.01));
-    const Ppm sheet = ppm_in(folder / "sheet.ppm");
+    const Ppm sheet = read_ppm(folder / "sheet.ppm");
     // The largest difference is white.
     CHECK(static_cast<unsigned char>(
               sheet.part(k_margin + 30, k_margin + 40 + 2 * k_margin + k_line + 20, 1, 1)[0]) == 255);
 }
 
 TEST_CASE("diagnostics of a later picture are reported, and those of all pictures only once") {
-    const Folder folder;
-    const CommandResult result = expect(folder.run({"compare", "face.toml", "--reflection=phong", "--vary",
-                                                    "object.0.material.ks=0.1,0.9,0.1e0", "-o", "sheet.ppm"}),
-                                        0);
+    const Sheets folder;
+    const CommandResult result =
+        expect(folder.run_words({"compare", "face.toml", "--reflection=phong", "--vary",
+                                 "object.0.material.ks=0.1,0.9,0.1e0", "-o", "sheet.ppm"}),
+               0);
     const std::size_t first = result.err.find("warning");
     REQUIRE(first != std::string::npos);
     CHECK(result.err.find("warning", first + 1) == std::string::npos);
 }
 
 TEST_CASE("an impossible comparison is an error with a reason, and no sheet") {
-    const Folder folder;
+    const Sheets folder;
     CHECK(holds(folder.error({}, 2), "nothing to compare"));
     CHECK(holds(folder.error({"--reflection=phong"}, 2), "nothing to compare"));
     CHECK(holds(folder.error({"--reflection=phong,"}, 2), "a value is missing in 'phong,'"));

@@ -3,19 +3,20 @@
 #include <string>
 
 #include "support/command.h"
+#include "support/folder.h"
 #include "support/text.h"
 
 namespace {
 
 std::string warning(const std::string& lights_and_objects, const std::string& look_at = "[0, 0, 0]",
                     const std::string& image = "a.png", int exit_code = 0) {
-    const auto directory = scratch_directory();
+    const Folder directory;
     const std::string text = "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = " + look_at +
                              "\n[image]\nwidth = 32\nheight = 32\n[shading]\nmodel = "
                              "\"phong\"\n[reflection]\nmodel = \"phong\"\n" +
                              lights_and_objects;
     const CommandResult result = run_candela(
-        {"render", write_file(directory / "scene.toml", text).string(), "-o", (directory / image).string()});
+        {"render", directory.write("scene.toml", text).string(), "-o", (directory / image).string()});
     CHECK(result.exit_code == exit_code);
     return result.err;
 }

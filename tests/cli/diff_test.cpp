@@ -14,6 +14,7 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -51,19 +52,9 @@ std::string tga(int width, int height, const Numbers& numbers) {
     return bytes({0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, width, 0, height, 0, 32, 0x28}) + bytes(numbers);
 }
 
-class Folder {
+class Images : public Folder {
   public:
-    Folder() : path_(scratch_directory()) {}
-
-    void write(const std::string& name, const std::string& content) const {
-        write_file(path_ / name, content);
-    }
-    fs::path operator/(const std::string& name) const { return path_ / name; }
-
-    CommandResult diff(std::vector<std::string> arguments) const {
-        arguments.insert(arguments.begin(), "diff");
-        return run_candela(arguments, {.input = "", .environment = {}, .directory = path_});
-    }
+    CommandResult diff(const std::vector<std::string>& arguments) const { return run("diff", arguments); }
 
     Json figures(std::vector<std::string> arguments) const {
         arguments.emplace_back("--json");
@@ -80,14 +71,11 @@ class Folder {
         CHECK(result.err.find('\n') == result.err.size() - 1);
         return result.err;
     }
-
-  private:
-    fs::path path_;
 };
 
 /// Three pixels that differ by nothing, by 3 and 4 levels, and by 12.
-Folder folder_with_images() {
-    Folder folder;
+Images folder_with_images() {
+    Images folder;
     folder.write("a.ppm", ppm(3, 1, {10, 20, 30, 100, 100, 100, 255, 0, 0}));
     folder.write("b.ppm", ppm(3, 1, {10, 20, 30, 103, 100, 96, 255, 0, 12}));
     folder.write("mask.ppm", ppm(3, 1, {0, 0, 0, 127, 127, 127, 128, 128, 128}));
@@ -109,7 +97,7 @@ int brightness(const std::string& pixels, std::size_t pixel) {
 }  // namespace
 
 TEST_CASE("identical pictures differ by nothing, and have no finite PSNR") {
-    const Folder folder = folder_with_images();
+    const Images folder = folder_with_images();
     const CommandResult result = folder.diff({"a.ppm", "a.ppm", "--tolerance", "0"});
     CHECK(result.exit_code == 0);
     CHECK(result.err.empty());
@@ -131,7 +119,7 @@ TEST_CASE("identical pictures differ by nothing, and have no finite PSNR") {
 }
 
 TEST_CASE("the figures are those computed by hand") {
-    const Folder folder = folder_with_images();
+    const Images folder = folder_with_images();
     const Json figures = folder.figures({"a.ppm", "b.ppm"});
     CHECK(figures["width"] == 3);
     CHECK(figures["height"] == 1);
@@ -147,7 +135,7 @@ TEST_CASE("the figures are those computed by hand") {
 }
 
 TEST_CASE("they are aligned for people to read") {
-    const Folder folder = folder_with_images();
+    const Images folder = folder_with_images();
     const std::string text = folder.diff({"a.ppm", "b.ppm", "--mask", "mask.ppm"}).out;
     CHECK(
         text.starts_with("size                3 x 1\n"
@@ -164,7 +152,7 @@ TEST_CASE("they are aligned for people to read") {
 }
 
 TEST_CASE("pixels under the mask's white (above a half) are counted separately") {
-    const Folder folder = folder_with_images();
+    const Images folder = folder_with_images();
     const Json figures = folder.figures({"a.ppm", "b.ppm", "--mask", "mask.ppm"});
     const Json& interior = figures["interior"];
     CHECK(interior["pixels"] == 2);
@@ -188,7 +176,7 @@ TEST_CASE("pixels under the mask's white (above a half) are counted separately")
 }
 
 TEST_CASE("beyond the tolerance, which ignores edges, the exit code is 4 and the figures are printed") {
-    const Folder folder = folder_with_images();
+    const Images folder = folder_with_images();
     CHECK(folder.diff({"a.ppm", "b.ppm"}).exit_code == 0);
     CHECK(folder.diff({"a.ppm", "b.ppm", "--tolerance", "12"}).exit_code == 0);
     const CommandResult beyond = folder.diff({"a.ppm", "b.ppm", "--tolerance", "3.5"});
@@ -209,7 +197,7 @@ TEST_CASE("beyond the tolerance, which ignores edges, the exit code is 4 and the
 }
 
 TEST_CASE("a tolerance tolerates exactly that many levels, at any level") {
-    const Folder folder;
+    const Images folder;
     Numbers before, after, deep;
     for (int level = 0; level + 7 < 256; ++level) {
         for (int c = 0; c < 3; ++c) {
@@ -228,7 +216,7 @@ TEST_CASE("a tolerance tolerates exactly that many levels, at any level") {
 }
 
 TEST_CASE("alpha is ignored, and grey counts as equal red, green and blue") {
-    const Folder folder;
+    const Images folder;
     folder.write("color.ppm", ppm(2, 1, {30, 20, 10, 60, 60, 60}));
     folder.write("alpha.tga", tga(2, 1, {10, 20, 30, 0, 60, 60, 60, 128}));
     CHECK(folder.figures({"color.ppm", "alpha.tga"})["interior"]["identical"] == 2);
@@ -238,7 +226,7 @@ TEST_CASE("alpha is ignored, and grey counts as equal red, green and blue") {
 }
 
 TEST_CASE("floats are compared unchanged, times 255, even beyond 1, below 0 and with whole numbers") {
-    const Folder folder;
+    const Images folder;
     folder.write("a.pfm", pfm(1, 2, {0.5f, -1.0f, 8.0f, 0.0f, 0.0f, 0.0f}));
     folder.write("b.pfm", pfm(1, 2, {0.5f, -2.0f, 8.0f, 0.0f, 0.0f, 0.25f}));
     const Json interior = folder.figures({"a.pfm", "b.pfm"})["interior"];
@@ -257,7 +245,7 @@ TEST_CASE("floats are compared unchanged, times 255, even beyond 1, below 0 and 
 }
 
 TEST_CASE("a non-finite number is an error that says where it is") {
-    const Folder folder;
+    const Images folder;
     constexpr float k_nan = std::numeric_limits<float>::quiet_NaN();
     constexpr float k_infinity = std::numeric_limits<float>::infinity();
     folder.write("good.pfm", pfm(2, 2, std::vector<float>(12, 0.5f)));
@@ -276,7 +264,7 @@ TEST_CASE("a non-finite number is an error that says where it is") {
 }
 
 TEST_CASE("pictures of different sizes are an error that names both, and so is a mask of another size") {
-    const Folder folder;
+    const Images folder;
     folder.write("a.ppm", plain(3, 2, 0));
     folder.write("b.ppm", plain(2, 3, 0));
     CHECK(holds(folder.error({"a.ppm", "b.ppm"}, 1), "'a.ppm' has 3 x 2 pixels, 'b.ppm' has 2 x 3"));
@@ -285,7 +273,7 @@ TEST_CASE("pictures of different sizes are an error that names both, and so is a
 }
 
 TEST_CASE("a file that is not a picture is an error with a reason") {
-    const Folder folder = folder_with_images();
+    const Images folder = folder_with_images();
     CHECK(holds(folder.error({"a.ppm", "b.pmm"}, 1), "'b.pmm' does not exist; did you mean 'b.ppm'?"));
     CHECK(holds(folder.error({"none/a.ppm", "a.ppm"}, 1), "there is no folder 'none' either"));
     CHECK(holds(folder.error({".", "a.ppm"}, 1), "'.' is a directory; expected a picture file"));
@@ -308,7 +296,7 @@ TEST_CASE("a file that is not a picture is an error with a reason") {
 }
 
 TEST_CASE("wrong usage of candela diff is an error with a suggestion") {
-    const Folder folder = folder_with_images();
+    const Images folder = folder_with_images();
     CHECK(holds(folder.error({}, 2), "needs two pictures"));
     CHECK(holds(folder.error({"a.ppm"}, 2), "needs two pictures"));
     CHECK(holds(folder.error({"a.ppm", "a.ppm", "a.ppm"}, 2), "too many arguments"));
@@ -321,7 +309,7 @@ TEST_CASE("wrong usage of candela diff is an error with a suggestion") {
 }
 
 TEST_CASE("candela diff never overwrites a picture or a mask that it reads") {
-    const Folder folder = folder_with_images();
+    const Images folder = folder_with_images();
     const std::string before = read_file(folder / "b.ppm"), mask = read_file(folder / "mask.ppm");
     for (const char* const flag : {"--output", "--decoded"}) {
         INFO(flag);
@@ -334,7 +322,7 @@ TEST_CASE("candela diff never overwrites a picture or a mask that it reads") {
 }
 
 TEST_CASE("the heat-map is black where nothing differs, and brightest at the largest difference") {
-    const Folder folder;
+    const Images folder;
     Numbers numbers(std::size_t{3} * 5 * 4, 40);
     folder.write("a.ppm", ppm(5, 4, numbers));
     numbers[3 * 7] = 60;       // x 2, y 1
@@ -363,7 +351,7 @@ TEST_CASE("the heat-map is black where nothing differs, and brightest at the lar
 }
 
 TEST_CASE("the heat-map is complete or not written") {
-    const Folder folder = folder_with_images();
+    const Images folder = folder_with_images();
     // It is also written beyond the tolerance, when it is needed most.
     CHECK(folder.diff({"a.ppm", "b.ppm", "-o", "heat.png", "--tolerance", "0"}).exit_code == 4);
     CHECK(folder.figures({"heat.png", "heat.png"})["width"] == 3);
@@ -387,7 +375,7 @@ TEST_CASE("the heat-map is complete or not written") {
 // levels 188 and 183) it is 3.03 cd/m², and these differ by 2.94; between 188 and 182 it is 3.02, and they
 // differ by 3.51. At 19.9 cd/m² it is 1.67: 128 and 124 differ by 1.43, 128 and 123 by 1.78.
 TEST_CASE("a difference of grey is visible from the eye's threshold on") {
-    const Folder folder;
+    const Images folder;
     const auto seen = [&](int a, int b) {
         folder.write("a.ppm", plain(40, 30, a));
         folder.write("b.ppm", plain(40, 30, b));
@@ -403,7 +391,7 @@ TEST_CASE("a difference of grey is visible from the eye's threshold on") {
 }
 
 TEST_CASE("a difference of colour alone is visible, and only in its place") {
-    const Folder folder;
+    const Images folder;
     Numbers numbers(std::size_t{3} * 64 * 64, 128);
     folder.write("a.ppm", ppm(64, 64, numbers));
     numbers[3 * 1000 + 2] = 150;  // blue hardly adds light
@@ -412,7 +400,7 @@ TEST_CASE("a difference of colour alone is visible, and only in its place") {
 }
 
 TEST_CASE("a texture hides a difference that is visible on a smooth surface") {
-    const Folder folder;
+    const Images folder;
     const auto seen = [&](int low, int high) {
         Numbers before, after;
         for (int y = 0; y < 256; ++y) {

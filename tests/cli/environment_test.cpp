@@ -1,26 +1,22 @@
 // Pictures that surround the scene, and files that cannot.
 #include <catch2/catch_test_macros.hpp>
-#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "support/command.h"
 #include "support/expect.h"
-
-namespace fs = std::filesystem;
+#include "support/folder.h"
 
 namespace {
 
-CommandResult render(const std::string& image, const fs::path& directory,
+CommandResult render(const std::string& image, const Folder& directory,
                      const std::vector<std::pair<std::string, std::string>>& environment = {}) {
-    write_file(directory / "scene.toml",
-               "version = 1\n[image]\nwidth = 16\nheight = 8\n" + image +
-                   "\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
-                   "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"dielectric\"\n"
-                   "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"sphere\"\n");
-    return run_candela({"render", "scene.toml", "-o", "out.ppm"},
-                       {.input = "", .environment = environment, .directory = directory});
+    directory.write("scene.toml", "version = 1\n[image]\nwidth = 16\nheight = 8\n" + image +
+                                      "\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+                                      "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"dielectric\"\n"
+                                      "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"sphere\"\n");
+    return directory.run("render scene.toml -o out.ppm", {}, environment);
 }
 
 /// Four pixels: red to the left of the picture's middle, blue to the right.
@@ -30,10 +26,10 @@ const std::string k_image = std::string("P6\n4 1\n255\n") + "\xff" + std::string
 }  // namespace
 
 TEST_CASE("an environment picture, relative to the scene's file, is visible around the object") {
-    const fs::path d = scratch_directory();
-    write_file(d / "sky.ppm", k_image);
+    const Folder d;
+    d.write("sky.ppm", k_image);
     succeeded(render("environment = \"sky.ppm\"", d));
-    const std::string picture = read_file(d / "out.ppm");
+    const std::string picture = d.read("out.ppm");
     const std::size_t first = picture.size() - std::size_t{16} * 8 * 3;
     CHECK(static_cast<unsigned char>(picture[first]) > 150);  // red at the left edge
     CHECK(static_cast<unsigned char>(picture[first + 15 * 3]) < 150);
@@ -41,8 +37,8 @@ TEST_CASE("an environment picture, relative to the scene's file, is visible arou
 }
 
 TEST_CASE("mistakes in the environment are reported at its place") {
-    const fs::path d = scratch_directory();
-    write_file(d / "sky.ppm", k_image);
+    const Folder d;
+    d.write("sky.ppm", k_image);
     expect(render("environment = \"sea.ppm\"", d), 3, {"scene.toml:5:15: error: 'sea.ppm' does not exist"});
     expect(render("environment = \".\"", d), 3, {"scene.toml:5:15: error: '.' is a directory, not a file"});
     expect(render("environment = 3", d), 3,
@@ -52,12 +48,12 @@ TEST_CASE("mistakes in the environment are reported at its place") {
 }
 
 TEST_CASE("an environment that cannot be read as a picture is a failure that names the file") {
-    const fs::path d = scratch_directory();
-    write_file(d / "sky.txt", "blue");
-    write_file(d / "sky.png", "blue");
-    write_file(d / "short.ppm", k_image.substr(0, 14));
-    write_file(d / "sky.pfm",
-               std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\xc0\x7f", 4) + std::string(8, '\0'));
+    const Folder d;
+    d.write("sky.txt", "blue");
+    d.write("sky.png", "blue");
+    d.write("short.ppm", k_image.substr(0, 14));
+    d.write("sky.pfm",
+            std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\xc0\x7f", 4) + std::string(8, '\0'));
     expect(
         render("environment = \"sky.txt\"", d), 1,
         {"scene.toml:5:15: error: environment: ", "sky.txt' has a format that no image plugin reads", "exr"});
@@ -65,21 +61,19 @@ TEST_CASE("an environment that cannot be read as a picture is a failure that nam
     expect(render("environment = \"short.ppm\"", d), 1, {"short.ppm' cannot be read as a picture"});
     expect(render("environment = \"sky.pfm\"", d), 1,
            {"sky.pfm' cannot be read as a picture: a pixel is non-finite"});
-    CHECK_FALSE(fs::exists(d / "out.ppm"));
+    CHECK_FALSE(d.has("out.ppm"));
 }
 
 TEST_CASE(
     "without Embree, a scene with a transparent object is an error that names the package; any other "
     "renders") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     for (const char* const name : {"libembree3.so.3", "libembree4.so.4"})
         write_file(d / "hidden" / name, "no library");
     const std::vector<std::pair<std::string, std::string>> hidden{
         {"LD_LIBRARY_PATH", (d / "hidden").string()}};
     const CommandResult result = render("", d, hidden);
     expect(result, 1, {"Embree follows rays within transparent objects", "Debian's package libembree"});
-    CHECK_FALSE(fs::exists(d / "out.ppm"));
-    expect(run_candela({"render", "scene.toml", "--reflection", "phong", "-o", "out.ppm"},
-                       {.input = "", .environment = hidden, .directory = d}),
-           0);
+    CHECK_FALSE(d.has("out.ppm"));
+    expect(d.run("render scene.toml --reflection phong -o out.ppm", {}, hidden), 0);
 }

@@ -9,6 +9,7 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -23,31 +24,31 @@ constexpr const char* k_cube = "[[object]]\nname = \"box\"\ntype = \"cube\"\n";
 const std::string k_scene = std::string("version = 1\n") + k_observer + k_models + k_light + k_cube;
 
 /// `candela check` of files named as written, in the test's directory.
-CommandResult check(const std::vector<std::string>& files, const fs::path& directory) {
+CommandResult check(const std::vector<std::string>& files, const Folder& directory) {
     std::vector<std::string> words{"check"};
     words.insert(words.end(), files.begin(), files.end());
-    return run_candela(words, {.input = "", .environment = {}, .directory = directory});
+    return directory.run_words(words);
 }
 
 }  // namespace
 
 TEST_CASE("several files form one scene, in any order, on the command line and by include") {
-    const fs::path d = scratch_directory();
-    write_file(d / "a.toml", std::string("version = 1\n") + k_observer + k_models);
-    write_file(d / "b.toml", std::string("version = 1\n") + k_light);
-    write_file(d / "c.toml", std::string(k_cube));
+    const Folder d;
+    d.write("a.toml", std::string("version = 1\n") + k_observer + k_models);
+    d.write("b.toml", std::string("version = 1\n") + k_light);
+    d.write("c.toml", std::string(k_cube));
     CHECK(holds(check({"a.toml", "b.toml", "c.toml"}, d).out, "1 (1 point)"));
     CHECK(check({"c.toml", "b.toml", "a.toml"}, d).exit_code == 0);
-    write_file(d / "deep/more.toml", "include = [\"../c.toml\"]\n" + std::string(k_light));
-    write_file(d / "all.toml", "version = 1\ninclude = [\"a.toml\", \"deep/more.toml\"]\n");
+    d.write("deep/more.toml", "include = [\"../c.toml\"]\n" + std::string(k_light));
+    d.write("all.toml", "version = 1\ninclude = [\"a.toml\", \"deep/more.toml\"]\n");
     expect_out(check({"all.toml"}, d), 0, {"'box'"});
 }
 
 TEST_CASE("a repeated unique table is an error that names both places") {
-    const fs::path d = scratch_directory();
-    write_file(d / "a.toml", k_scene + "[image]\nwidth = 8\n[room]\nwidth = 9\n");
+    const Folder d;
+    d.write("a.toml", k_scene + "[image]\nwidth = 8\n[room]\nwidth = 9\n");
     const auto with = [&](const std::string& text) {
-        write_file(d / "b.toml", text);
+        d.write("b.toml", text);
         return check({"a.toml", "b.toml"}, d);
     };
     expect(with(k_observer), 3, {"b.toml:1:2: error: 'observer' is given twice; first at a.toml:2:2"});
@@ -65,27 +66,27 @@ TEST_CASE("a repeated unique table is an error that names both places") {
 }
 
 TEST_CASE("mistakes are shown file by file, in reading order") {
-    const fs::path d = scratch_directory();
-    write_file(d / "z.toml", k_scene + "[image]\nwidth = 0\n");
-    write_file(d / "a.toml", "[room]\nwidth = 0\n");
+    const Folder d;
+    d.write("z.toml", k_scene + "[image]\nwidth = 0\n");
+    d.write("a.toml", "[room]\nwidth = 0\n");
     const CommandResult result = check({"z.toml", "a.toml"}, d);
     expect(result, 3, {"z.toml:16:9: error", "a.toml:2:9: error"});
     CHECK(result.err.find("z.toml:16:9") < result.err.find("a.toml:2:9"));
 }
 
 TEST_CASE("includes that are circular, missing or repeated are errors at their line") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     const auto included = [&](const std::string& list) {
-        write_file(d / "scene.toml", "version = 1\ninclude = " + list + "\n" + k_scene.substr(12));
+        d.write("scene.toml", "version = 1\ninclude = " + list + "\n" + k_scene.substr(12));
         return check({"scene.toml"}, d);
     };
     expect(included("[\"scene.toml\"]"), 3, {"scene.toml:2:12: error: 'scene.toml' includes itself"});
-    write_file(d / "b.toml", "\ninclude = [\"./scene.toml\"]\n");
+    d.write("b.toml", "\ninclude = [\"./scene.toml\"]\n");
     expect(included("[\"b.toml\"]"), 3, {"b.toml:2:12: error: './scene.toml' includes itself"});
-    write_file(d / "c.toml", "[room]\n");
+    d.write("c.toml", "[room]\n");
     expect(included("[\"lihgts.toml\", \"c.toml\"]"), 3,
            {"scene.toml:2:12: error: there is no file 'lihgts.toml' to include"});
-    write_file(d / "lights.toml", k_light);
+    d.write("lights.toml", k_light);
     expect(included("[\"lihgts.toml\"]"), 3, {"did you mean 'lights.toml'?"});
     expect(included("[\"c.toml\", \"./c.toml\"]"), 3, {"scene.toml:2:22: error: './c.toml' is read twice"});
     expect(included("\"c.toml\""), 3,
@@ -93,15 +94,15 @@ TEST_CASE("includes that are circular, missing or repeated are errors at their l
     expect(included("[3]"), 3,
            {"scene.toml:2:12: error: 'include' contains the integer 3; expected a quoted path"});
     expect(included("[\".\"]"), 1, {"directory"});
-    write_file(d / "broken.toml", "[room\n");
+    d.write("broken.toml", "[room\n");
     expect(included("[\"broken.toml\"]"), 3, {"broken.toml:1:6: error"});
     CHECK(included("[]").exit_code == 0);
     expect(check({"c.toml", "c.toml"}, d), 3, {"'c.toml' is read twice"});
 }
 
 TEST_CASE("R11: each kind of unreadable file has its own message and exit code") {
-    const fs::path d = scratch_directory();
-    write_file(d / "scene.toml", k_scene);
+    const Folder d;
+    d.write("scene.toml", k_scene);
     expect(check({"scnee.toml"}, d), 1,
            {"scnee.toml: error: there is no such file", "did you mean 'scene.toml'?"});
     expect(check({"folder/scene.toml"}, d), 1,
@@ -109,20 +110,20 @@ TEST_CASE("R11: each kind of unreadable file has its own message and exit code")
     expect(check({""}, d), 2, {"a scene's file name is empty"});
     fs::create_directory(d / "folder");
     expect(check({"folder"}, d), 1, {"folder: error: this is a directory; expected a scene file"});
-    write_file(d / "empty.toml", "");
+    d.write("empty.toml", "");
     expect(check({"empty.toml"}, d), 3, {"empty.toml:1:1: error: the file is empty"});
-    write_file(d / "blank.toml", " \n\t\n");
+    d.write("blank.toml", " \n\t\n");
     expect(check({"blank.toml"}, d), 3, {"blank.toml:1:1: error: the file is empty"});
-    write_file(d / "picture.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
+    d.write("picture.png", std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16));
     expect(check({"picture.png"}, d), 3,
            {"picture.png:3:1: error: this is a binary file; a scene is text (TOML)"});
-    write_file(d / "latin1.toml", k_scene + "# caf\xe9\n");
+    d.write("latin1.toml", k_scene + "# caf\xe9\n");
     expect(check({"latin1.toml"}, d), 3,
            {"latin1.toml:15:6: error: this is not UTF-8 text", "save the file as UTF-8", "# caf\\x{e9}"});
     REQUIRE(::mkfifo((d / "fifo").c_str(), 0600) == 0);
     expect(check({"fifo"}, d), 1, {"fifo: error: this is not a regular file (a pipe or a device?)"});
     expect(check({"/dev/zero"}, d), 1, {"/dev/zero: error: this is not a regular file"});
-    write_file(d / "huge.toml", "");
+    d.write("huge.toml", "");
     fs::resize_file(d / "huge.toml", 100'000'000);
     expect(check({"huge.toml"}, d), 1,
            {"huge.toml:1:1: error: the file is too large: 100000000 bytes, where a scene may have"});
@@ -134,8 +135,8 @@ TEST_CASE("R11: each kind of unreadable file has its own message and exit code")
 }
 
 TEST_CASE("R11: a file without read permission says so") {
-    const fs::path d = scratch_directory();
-    const fs::path file = write_file(d / "secret.toml", k_scene);
+    const Folder d;
+    const fs::path file = d.write("secret.toml", k_scene);
     fs::permissions(file, fs::perms::none);
     if (::geteuid() != 0) {
         expect(check({"secret.toml"}, d), 1,
@@ -150,11 +151,11 @@ TEST_CASE("R11: a file without read permission says so") {
 }
 
 TEST_CASE("R11: mesh files that are broken, empty or without triangles each have their own message") {
-    const fs::path d = scratch_directory();
+    const Folder d;
     const auto mesh = [&](const std::string& name, const std::string& content) {
-        write_file(d / name, content);
-        write_file(d / "scene.toml",
-                   k_scene + "[[object]]\ntype = \"mesh\"\nfile = \"" + name + "\"\nposition = [2, 0, 0]\n");
+        d.write(name, content);
+        d.write("scene.toml",
+                k_scene + "[[object]]\ntype = \"mesh\"\nfile = \"" + name + "\"\nposition = [2, 0, 0]\n");
         const CommandResult result = check({"scene.toml"}, d);
         CHECK(holds(result.err, "scene.toml:15:1: error: object number 1: plugin shape/mesh: '"));
         return result;

@@ -30,9 +30,7 @@ std::string times(std::size_t count, const std::string& part) {
 CommandResult check(const std::string& text, const std::vector<std::string>& more = {}) {
     const Folder directory;
     directory.write("a.toml", text);
-    std::vector<std::string> words{"check", "a.toml"};
-    words.insert(words.end(), more.begin(), more.end());
-    return directory.run_words(words);
+    return directory.run("check a.toml", more);
 }
 
 /// A limit of 4 GB of address space; not for sanitizers, which reserve terabytes.

@@ -14,8 +14,6 @@
 #include "support/gltf_file.h"
 #include "support/text.h"
 
-namespace fs = std::filesystem;
-
 namespace {
 
 using Json = nlohmann::json;

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
+#include "support/ppm.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -47,49 +47,13 @@ std::string ball(double r, std::array<double, 3> at, const std::string& begin = 
     return text;
 }
 
-struct Pixels {
-    int width = 0, height = 0;
-    std::string bytes;
-
-    std::array<int, 3> at(int x, int y) const {
-        const std::size_t i =
-            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
-        return {static_cast<unsigned char>(bytes[i]), static_cast<unsigned char>(bytes[i + 1]),
-                static_cast<unsigned char>(bytes[i + 2])};
-    }
-    std::array<int, 3> middle() const { return at(width / 2, height / 2); }
-    double burnt() const {
-        int count = 0, covered = 0;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) {
-                covered += at(x, y) != at(0, 0);
-                count += at(x, y) == std::array{255, 255, 255};
-            }
-        return static_cast<double>(count) / covered;
-    }
-};
-
-Pixels read_ppm(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    Pixels pixels;
-    std::string magic;
-    int most = 0;
-    in >> magic >> pixels.width >> pixels.height >> most;
-    in.get();
-    pixels.bytes.resize(3 * static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
-    in.read(pixels.bytes.data(), static_cast<std::streamsize>(pixels.bytes.size()));
-    return pixels;
-}
-
 struct Rendered {
     CommandResult result;
-    Pixels image;
+    Ppm image;
 };
 
 Rendered rendered(const Folder& folder, const std::string& model, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words = {"render", model, "-o", model + ".ppm"};
-    words.insert(words.end(), more.begin(), more.end());
-    Rendered result{folder.run_words(words), {}};
+    Rendered result{folder.run("render " + model + " -o " + model + ".ppm", more), {}};
     INFO(result.result.err);
     REQUIRE(result.result.exit_code == 0);
     result.image = read_ppm(folder / (model + ".ppm"));
@@ -331,7 +295,7 @@ TEST_CASE("with --allow-outside a model may name files outside its folder; messa
 TEST_CASE("a model far from its origin gives the same picture as at the origin") {
     const Folder folder;
     folder.write("here.obj", ball(1, {0, 0, 0}));
-    const Pixels here = rendered(folder, "here.obj").image;
+    const Ppm here = rendered(folder, "here.obj").image;
     for (const std::array<double, 3>& at : {std::array{500000.25, 4500000.75, 120.0},
                                             {4500000.0, 600000.0, 4400000.0},
                                             {0.0, -1000000.0, 0.0},
@@ -341,11 +305,7 @@ TEST_CASE("a model far from its origin gives the same picture as at the origin")
         folder.write("far.obj", ball(1, at));
         const Rendered far = rendered(folder, "far.obj");
         CHECK(holds(far.result.err, "which is the scene's origin") == (at[0] != 150));
-        REQUIRE(far.image.bytes.size() == here.bytes.size());
-        int most = 0;
-        for (std::size_t i = 0; i < here.bytes.size(); ++i)
-            most = std::max(most, std::abs(static_cast<unsigned char>(here.bytes[i]) -
-                                           static_cast<unsigned char>(far.image.bytes[i])));
+        const int most = largest_difference(far.image, here);
         CHECK(most <= 2);
     }
 }
@@ -390,14 +350,9 @@ TEST_CASE("the camera and lights of a glTF file far from the origin are moved wi
                                  x, y, z));
         return rendered(folder, name).image;
     };
-    const Pixels here = scene_at("here.gltf", 0, 0, 0),
-                 far = scene_at("far.gltf", 500000.25, 4500000.75, 120);
+    const Ppm here = scene_at("here.gltf", 0, 0, 0), far = scene_at("far.gltf", 500000.25, 4500000.75, 120);
     CHECK(here.middle() != here.at(0, 0));
-    REQUIRE(here.bytes.size() == far.bytes.size());
-    int most = 0;
-    for (std::size_t i = 0; i < here.bytes.size(); ++i)
-        most = std::max(most, std::abs(static_cast<unsigned char>(here.bytes[i]) -
-                                       static_cast<unsigned char>(far.bytes[i])));
+    const int most = largest_difference(far, here);
     CHECK(most <= 2);
 }
 

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
@@ -17,6 +16,7 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
+#include "support/ppm.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -35,45 +35,6 @@ constexpr const char* k_two_materials =
 
 std::string grey_ppm(std::uint8_t value) {
     return std::string("P6\n1 1\n255\n") + std::string(3, static_cast<char>(value));
-}
-
-struct Pixels {
-    int width = 0, height = 0;
-    std::string bytes;
-
-    std::array<int, 3> at(int x, int y) const {
-        const std::size_t i =
-            3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
-        return {static_cast<unsigned char>(bytes[i]), static_cast<unsigned char>(bytes[i + 1]),
-                static_cast<unsigned char>(bytes[i + 2])};
-    }
-    /// Whether the outermost pixels all have the same colour.
-    bool has_free_border() const {
-        for (int x = 0; x < width; ++x)
-            if (at(x, 0) != at(0, 0) || at(x, height - 1) != at(0, 0)) return false;
-        for (int y = 0; y < height; ++y)
-            if (at(0, y) != at(0, 0) || at(width - 1, y) != at(0, 0)) return false;
-        return true;
-    }
-    /// The share of pixels that differ from the first, the background.
-    double covered() const {
-        int count = 0;
-        for (int y = 0; y < height; ++y)
-            for (int x = 0; x < width; ++x) count += at(x, y) != at(0, 0);
-        return static_cast<double>(count) / (width * height);
-    }
-};
-
-Pixels read_ppm(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    Pixels pixels;
-    std::string magic;
-    int most = 0;
-    in >> magic >> pixels.width >> pixels.height >> most;
-    in.get();
-    pixels.bytes.resize(3 * static_cast<std::size_t>(pixels.width) * static_cast<std::size_t>(pixels.height));
-    in.read(pixels.bytes.data(), static_cast<std::streamsize>(pixels.bytes.size()));
-    return pixels;
 }
 
 std::string base64(const std::string& bytes) {
@@ -122,7 +83,7 @@ TEST_CASE("a model in place of a scene is framed: it is completely visible, lit 
     folder.write("cube.obj", text);
     const CommandResult result = succeeded(folder.run("render cube.obj -o cube.ppm"));
     CHECK_FALSE(holds(result.err, "warning"));
-    const Pixels picture = read_ppm(folder / "cube.ppm");
+    const Ppm picture = read_ppm(folder / "cube.ppm");
     CHECK(picture.covered() > 0.2);
     CHECK(picture.at(picture.width / 2, picture.height / 2)[1] > 60);
     CHECK(picture.has_free_border());
@@ -143,14 +104,14 @@ TEST_CASE("a model is completely visible in pictures of every proportion, also t
             INFO(input << " at " << width << " x " << height);
             succeeded(
                 folder.run_words({"render", input, "-o", "box.ppm", "--width", width, "--height", height}));
-            const Pixels picture = read_ppm(folder / "box.ppm");
+            const Ppm picture = read_ppm(folder / "box.ppm");
             CHECK(picture.covered() > 0.01);
             CHECK(picture.has_free_border());
         }
     }
     // A wide model fills a narrow picture from side to side.
     succeeded(folder.run("render scene.toml -o box.ppm --set image.width=300"));
-    const Pixels picture = read_ppm(folder / "box.ppm");
+    const Ppm picture = read_ppm(folder / "box.ppm");
     int first = picture.width, last = 0;
     for (int x = 0; x < picture.width; ++x)
         for (int y = 0; y < picture.height; ++y)
@@ -193,7 +154,7 @@ TEST_CASE("import translates an MTL file's Phong parameters, and reports each lo
     CHECK(holds(result.out, "# Note: the opacity of materials is left out"));
     SECTION("each part has its own colour in the picture") {
         succeeded(folder.run("render two.obj -o a.ppm"));
-        const Pixels picture = read_ppm(folder / "a.ppm");
+        const Ppm picture = read_ppm(folder / "a.ppm");
         const auto left = picture.at(picture.width / 3, picture.height / 2);
         const auto right = picture.at(picture.width * 2 / 3, picture.height / 2);
         CHECK(left[0] > left[1]);
@@ -305,7 +266,7 @@ TEST_CASE("a texture inside a glTF file is written next to the scene, and render
     succeeded(folder.run("render a.toml -o b.ppm"));
     succeeded(folder.run("render a.gltf -o a.ppm"));
     CHECK(folder.read("a.ppm") == folder.read("b.ppm"));
-    const Pixels picture = read_ppm(folder / "a.ppm");
+    const Ppm picture = read_ppm(folder / "a.ppm");
     const auto middle = picture.at(picture.width / 2, picture.height / 2);
     CHECK(middle[1] > 2 * middle[0]);
     CHECK(middle[1] > 2 * middle[2]);
@@ -376,7 +337,7 @@ TEST_CASE("lights that would burn out the picture, or leave it black, are scaled
         INFO(result.err);
         REQUIRE(result.exit_code == 0);
         CHECK(holds(result.err, "times as bright as in the file"));
-        const Pixels picture = read_ppm(folder / "a.ppm");
+        const Ppm picture = read_ppm(folder / "a.ppm");
         const int middle = picture.at(picture.width / 2, picture.height / 2)[1];
         CHECK(middle > 60);
         CHECK(middle < 255);
@@ -467,7 +428,7 @@ TEST_CASE("a PLY file shows the texture named in MeshLab's comment") {
     write("red paint.ppm");
     const CommandResult result = succeeded(folder.run("render a.ply -o a.ppm"));
     CHECK_FALSE(holds(result.err, "warning"));
-    const Pixels picture = read_ppm(folder / "a.ppm");
+    const Ppm picture = read_ppm(folder / "a.ppm");
     const auto middle = picture.at(picture.width / 2, picture.height / 2);
     CHECK(middle[0] > 4 * middle[1]);
     write("nowhere.png");

@@ -27,7 +27,6 @@
 
 #include "support/command.h"
 #include "support/expect.h"
-#include "support/text.h"
 
 namespace fs = std::filesystem;
 

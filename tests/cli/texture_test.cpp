@@ -3,36 +3,33 @@
 #include <sys/stat.h>
 
 #include <catch2/catch_test_macros.hpp>
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "support/command.h"
 #include "support/expect.h"
-
-namespace fs = std::filesystem;
+#include "support/folder.h"
 
 namespace {
 
 /// Four pixels of any colour.
 const std::string k_image = "P6\n2 2\n255\nabcdefghijkl";
 
-CommandResult render(const std::string& texture, const fs::path& directory, const char* shape = "torus") {
-    write_file(directory / "scene.toml",
-               std::string("version = 1\nimage = { width = 16, height = 8 }\n"
-                           "observer = { position = [0, 0, 4], look_at = [0, 0, 0] }\n"
-                           "shading = { model = \"phong\" }\nreflection = { model = \"phong\" }\n"
-                           "[[light]]\ntype = \"ambient\"\n[[object]]\nname = \"ring\"\ntype = \"") +
-                   shape + "\"\n" + texture + "\n");
-    return run_candela({"render", "scene.toml", "-o", "out.ppm"},
-                       {.input = "", .environment = {}, .directory = directory});
+CommandResult render(const std::string& texture, const Folder& directory, const char* shape = "torus") {
+    directory.write("scene.toml",
+                    std::string("version = 1\nimage = { width = 16, height = 8 }\n"
+                                "observer = { position = [0, 0, 4], look_at = [0, 0, 0] }\n"
+                                "shading = { model = \"phong\" }\nreflection = { model = \"phong\" }\n"
+                                "[[light]]\ntype = \"ambient\"\n[[object]]\nname = \"ring\"\ntype = \"") +
+                        shape + "\"\n" + texture + "\n");
+    return directory.run("render scene.toml -o out.ppm");
 }
 
 }  // namespace
 
 TEST_CASE("mistakes in a texture are reported at its place") {
-    const fs::path d = scratch_directory();
-    write_file(d / "wood.ppm", k_image);
+    const Folder d;
+    d.write("wood.ppm", k_image);
     REQUIRE(::mkfifo((d / "pipe.ppm").c_str(), 0600) == 0);
     expect(render("color_texture = \"wool.ppm\"", d), 3,
            {"scene.toml:11:17: error: 'wool.ppm' does not exist", "did you mean 'wood.ppm'?"});
@@ -45,19 +42,19 @@ TEST_CASE("mistakes in a texture are reported at its place") {
     expect(render("color_texture = \"wood.ppm\"\ncolor_texture_wrap = \"mirror\"", d), 3,
            {"scene.toml:12:22: error: 'color_texture_wrap': \"mirror\" is not one of 'repeat', 'clamp'"});
     expect(render("color_texture = \"wood.ppm\"", d, "cube"), 0, {});
-    CHECK(fs::exists(d / "out.ppm"));
+    CHECK(d.has("out.ppm"));
 }
 
 TEST_CASE("a texture that cannot be read as a picture is one failure that names the file") {
-    const fs::path d = scratch_directory();
-    write_file(d / "wood.txt", "brown");
-    write_file(d / "wood.png", "brown");
-    write_file(d / "plain.ppm", "P3\n1 1\n255\n1 2 3\n");
-    write_file(d / "short.ppm", k_image.substr(0, k_image.size() - 1));
-    write_file(d / "none.pfm",
-               std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\xc0\x7f", 4) + std::string(8, '\0'));
+    const Folder d;
+    d.write("wood.txt", "brown");
+    d.write("wood.png", "brown");
+    d.write("plain.ppm", "P3\n1 1\n255\n1 2 3\n");
+    d.write("short.ppm", k_image.substr(0, k_image.size() - 1));
+    d.write("none.pfm",
+            std::string("PF\n1 1\n-1.0\n") + std::string("\0\0\xc0\x7f", 4) + std::string(8, '\0'));
     succeeded(run_candela({"render", "--width=16", "--height=8", "-o", (d / "whole.png").string()}));
-    const std::string png = read_file(d / "whole.png");
+    const std::string png = d.read("whole.png");
     const auto refused = [&](const std::string& file, const std::string& reason) {
         const CommandResult result = render("color_texture = \"" + file + "\"", d);
         expect(result, 1, {"scene.toml:11:17: error: object 'ring': ", file + "' " + reason});
@@ -70,24 +67,23 @@ TEST_CASE("a texture that cannot be read as a picture is one failure that names 
     refused("none.pfm", "cannot be read as a picture: a pixel is non-finite");
     // Truncated within the header, the pixels and the last chunk, and before that one.
     for (const std::size_t length : {std::size_t{20}, png.size() / 2, png.size() - 1, png.size() - 12}) {
-        write_file(d / "cut.png", png.substr(0, length));
+        d.write("cut.png", png.substr(0, length));
         refused("cut.png", "cannot be read as a picture: it is cut off");
     }
-    CHECK_FALSE(fs::exists(d / "out.ppm"));
+    CHECK_FALSE(d.has("out.ppm"));
     expect(render("color_texture = \"whole.png\"", d), 0, {});
 }
 
 TEST_CASE("a picture of a few bytes that claims 400 million pixels does not take memory for them") {
-    const fs::path d = scratch_directory();
-    write_file(d / "large.ppm", "P6\n20000 20000\n255\nabc");
-    write_file(d / "large.pfm", "PF\n20000 20000\n-1.0\nabc");
+    const Folder d;
+    d.write("large.ppm", "P6\n20000 20000\n255\nabc");
+    d.write("large.pfm", "PF\n20000 20000\n-1.0\nabc");
     // A header of TGA, then of BMP: true colour, 20000 x 20000 (0x4e20), uncompressed.
     const std::string side("\x20\x4e", 2), zero(2, '\0');
-    write_file(d / "large.tga",
-               std::string("\0\0\2", 3) + std::string(9, '\0') + side + side + std::string("\x18\0abc", 5));
-    write_file(d / "large.bmp", "BM" + std::string("\x64\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0", 16) + side +
-                                    zero + side + zero + std::string("\1\0\x18\0", 4) +
-                                    std::string(24, '\0') + "abc");
+    d.write("large.tga",
+            std::string("\0\0\2", 3) + std::string(9, '\0') + side + side + std::string("\x18\0abc", 5));
+    d.write("large.bmp", "BM" + std::string("\x64\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0", 16) + side + zero +
+                             side + zero + std::string("\1\0\x18\0", 4) + std::string(24, '\0') + "abc");
     for (const char* const file : {"large.ppm", "large.pfm", "large.tga", "large.bmp"}) {
         INFO(file);
         expect(render("color_texture = \"" + std::string(file) + "\"", d), 1,

@@ -9,8 +9,6 @@
 #include "support/folder.h"
 #include "support/text.h"
 
-namespace fs = std::filesystem;
-
 namespace {
 
 /// A scene with one more line in one of its tables, which is identified by the preceding text.

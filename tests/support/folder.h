@@ -30,14 +30,20 @@ class Folder {
     }
     std::string read(const std::string& name) const { return read_file(path_ / name); }
 
-    /// Runs the command in the folder, with words separated by spaces.
-    CommandResult run(const std::string& line) const {
+    using Environment = std::vector<std::pair<std::string, std::string>>;
+
+    /// Runs the command in the folder, with the words of a line, which spaces separate, and with `more`.
+    CommandResult run(const std::string& line, const std::vector<std::string>& more = {},
+                      const Environment& environment = {}) const {
         std::istringstream in(line);
-        return run_words({std::istream_iterator<std::string>(in), {}});
+        std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
+        words.insert(words.end(), more.begin(), more.end());
+        return run_words(words, environment);
     }
     /// The same, with words that may contain spaces.
-    CommandResult run_words(const std::vector<std::string>& words) const {
-        return run_candela(words, {.input = "", .environment = {}, .directory = path_});
+    CommandResult run_words(const std::vector<std::string>& words,
+                            const Environment& environment = {}) const {
+        return run_candela(words, {.input = "", .environment = environment, .directory = path_});
     }
 
   private:

@@ -12,7 +12,6 @@
 
 #include "support/command.h"
 #include "support/expect.h"
-#include "support/text.h"
 
 namespace fs = std::filesystem;
 

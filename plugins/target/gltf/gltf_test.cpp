@@ -13,6 +13,7 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -62,24 +63,21 @@ std::vector<T> numbers(const Glb& glb, const Json& accessor_index) {
     return result;
 }
 
-CommandResult generate(const fs::path& folder, const std::string& scene,
+CommandResult generate(const Folder& folder, const std::string& scene,
                        const std::vector<std::string>& more = {}) {
-    const fs::path file = write_file(folder / "scene.toml", scene);
-    std::vector<std::string> words{"generate", file.string(), "--target", "gltf", "-o", folder.string()};
-    words.insert(words.end(), more.begin(), more.end());
-    return run_candela(words);
+    folder.write("scene.toml", scene);
+    return folder.run("generate scene.toml --target gltf -o .", more);
 }
 
-Glb generated(const fs::path& folder, const std::string& scene, const std::vector<std::string>& more = {}) {
+Glb generated(const Folder& folder, const std::string& scene, const std::vector<std::string>& more = {}) {
     succeeded(generate(folder, scene, more));
     return read_glb(folder / "scene.glb");
 }
 
 /// The scene that `candela import` makes of it.
-std::string imported(const fs::path& folder) {
-    succeeded(run_candela(
-        {"import", (folder / "scene.glb").string(), "-o", (folder / "back.toml").string(), "--force"}));
-    return read_file(folder / "back.toml");
+std::string imported(const Folder& folder) {
+    succeeded(folder.run("import scene.glb -o back.toml --force"));
+    return folder.read("back.toml");
 }
 
 bool is_near(const Json& a, double b) {
@@ -125,11 +123,11 @@ color = [200, 100, 50]
 material = {kd = [0.5, 1, 0.25], ka = 0}
 )";
 
-fs::path folder_with_leaf() {
-    fs::path folder = scratch_directory();
-    write_file(folder / "leaf.obj",
-               "v -0.1 0.2 0.3\nv 1.1 0 0.7\nv 0.4 1.3 -0.2\nvn 0 0 1\nvn 0.6 0 0.8\nvn 0 0.6 0.8\nf 1//1 "
-               "2//2 3//3\n");
+Folder folder_with_leaf() {
+    const Folder folder;
+    folder.write("leaf.obj",
+                 "v -0.1 0.2 0.3\nv 1.1 0 0.7\nv 0.4 1.3 -0.2\nvn 0 0 1\nvn 0.6 0 0.8\nvn 0 0.6 0.8\nf 1//1 "
+                 "2//2 3//3\n");
     return folder;
 }
 
@@ -194,7 +192,7 @@ TEST_CASE(
 }
 
 TEST_CASE("target/gltf: candela import reads back the same scene, with the same picture") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     const std::string scene = k_view + R"([[object]]
 name = "ball"
 type = "sphere"
@@ -230,16 +228,15 @@ material = {kd = 1, ka = 0}
     CHECK(holds(back, "[90, 160, 220]"));
     CHECK(holds(back, "\"ball\""));
 
-    const std::string a = (folder / "a.png").string(), b = (folder / "b.png").string();
-    succeeded(run_candela({"render", (folder / "scene.toml").string(), "-o", a}));
+    succeeded(folder.run("render scene.toml -o a.png"));
     // Imported files with lights get a little ambient light, which the scene does not have.
-    succeeded(run_candela({"render", (folder / "back.toml").string(), "-o", b, "--width", "200", "--height",
-                           "100", "--samples", "1", "--set", "light.sky.intensity=0"}));
-    expect(run_candela({"diff", a, b, "--tolerance", "1"}), 0);
+    succeeded(folder.run(
+        "render back.toml -o b.png --width 200 --height 100 --samples 1 --set light.sky.intensity=0"));
+    expect(folder.run("diff a.png b.png --tolerance 1"), 0);
 }
 
 TEST_CASE("target/gltf: an imported metallic-roughness material survives a round trip") {
-    const fs::path folder = folder_with_leaf();
+    const Folder folder = folder_with_leaf();
     // metallic 0.6 and roughness 0.5 of a base colour, as candela import converts them.
     const double m = 0.6, dielectric = 0.04;
     const auto specular = [&](double byte) { return dielectric * (1 - m) + m * linear(byte); };
@@ -257,13 +254,12 @@ TEST_CASE("target/gltf: an imported metallic-roughness material survives a round
 }
 
 TEST_CASE("target/gltf: textures are embedded unchanged, with v from the top, and read back") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "quad.obj",
-               "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 0.75\nvt 0 0.75\n"
-               "f 1/1 2/2 3/3 4/4\n");
-    succeeded(
-        run_candela({"render", "-o", (folder / "picture.png").string(), "--width", "8", "--height", "8"}));
-    const std::string picture = read_file(folder / "picture.png");
+    const Folder folder;
+    folder.write("quad.obj",
+                 "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 0.75\nvt 0 0.75\n"
+                 "f 1/1 2/2 3/3 4/4\n");
+    succeeded(folder.run("render -o picture.png --width 8 --height 8"));
+    const std::string picture = folder.read("picture.png");
     const std::string scene = std::string(k_scene).replace(
         k_scene.find("file ="), std::string::npos,
         "file = \"quad.obj\"\ncolor_texture = \"picture.png\"\ncolor_texture_wrap = "
@@ -284,15 +280,14 @@ TEST_CASE("target/gltf: textures are embedded unchanged, with v from the top, an
     CHECK(holds(back, "color_texture_wrap"));
 
     fs::rename(folder / "picture.png", folder / "kept.png");
-    succeeded(
-        run_candela({"render", "-o", (folder / "picture.ppm").string(), "--width", "8", "--height", "8"}));
+    succeeded(folder.run("render -o picture.ppm --width 8 --height 8"));
     expect(generate(folder, std::string(scene).replace(scene.find("picture.png"), 11, "picture.ppm")), 1,
            {"neither a PNG nor a JPEG"});
 }
 
 TEST_CASE(
     "target/gltf: features that glTF lacks are refused by name, or reported once each with --approximate") {
-    const fs::path folder = folder_with_leaf();
+    const Folder folder = folder_with_leaf();
     const std::string scene = k_scene + R"([[object]]
 type = "sphere"
 radius = 0.2
@@ -308,7 +303,7 @@ direction = [0, -1, 0]
 )";
     const CommandResult refused = generate(folder, scene);
     CHECK(refused.exit_code == 1);
-    CHECK_FALSE(fs::exists(folder / "scene.glb"));
+    CHECK_FALSE(folder.has("scene.glb"));
     const CommandResult accepted = generate(folder, scene, {"--approximate"});
     CHECK(accepted.exit_code == 0);
     for (const std::string& name : {"reflection/phong", "light/ambient", "light/spot", "shading/flat"}) {

@@ -12,39 +12,30 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
+#include "support/ppm.h"
 #include "support/text.h"
-
-namespace fs = std::filesystem;
 
 namespace {
 
-CommandResult generate(const fs::path& folder, const std::string& scene,
+CommandResult generate(const Folder& folder, const std::string& scene,
                        const std::vector<std::string>& more = {}) {
-    const fs::path file = write_file(folder / "scene.toml", scene);
-    std::vector<std::string> words{"generate", file.string(), "--target",
-                                   "povray",   "-o",          (folder / "made").string()};
-    words.insert(words.end(), more.begin(), more.end());
-    return run_candela(words);
+    folder.write("scene.toml", scene);
+    return folder.run("generate scene.toml --target povray -o made", more);
 }
 
-std::string generated(const fs::path& folder, const std::string& scene) {
+std::string generated(const Folder& folder, const std::string& scene) {
     succeeded(generate(folder, scene));
-    return read_file(folder / "made/scene.pov");
+    return folder.read("made/scene.pov");
 }
 
 /// The middle pixel of the picture that POV-Ray draws, in levels.
-std::array<int, 3> drawn_in_the_middle(const fs::path& folder, const std::string& scene) {
+std::array<int, 3> drawn_in_the_middle(const Folder& folder, const std::string& scene) {
     generated(folder, scene);
     CommandSetup setup;
     setup.directory = folder / "made";
     succeeded(run_program({"povray", "scene.ini", "+FP", "+Opicture.ppm"}, setup));
-    const std::string ppm = read_file(folder / "made/picture.ppm");
-    constexpr std::size_t k_size = 9;  // pixels each way
-    const std::size_t pixels = ppm.size() - 3 * k_size * k_size, middle = pixels + 3 * (k_size * k_size / 2);
-    const auto level = [&](std::size_t k) {
-        return static_cast<int>(static_cast<unsigned char>(ppm[middle + k]));
-    };
-    return {level(0), level(1), level(2)};
+    return read_ppm(folder / "made/picture.ppm").middle();
 }
 
 std::array<int, 3> levels(double r, double g, double b) {
@@ -74,19 +65,17 @@ color = [255, 255, 255]
 }
 
 /// The output of `candela verify` for a scene, with a tolerance of one level.
-CommandResult verify(const fs::path& folder, const std::string& scene,
+CommandResult verify(const Folder& folder, const std::string& scene,
                      const std::vector<std::string>& more = {}) {
-    const fs::path file = write_file(folder / "scene.toml", scene);
-    std::vector<std::string> words{"verify", file.string(), "--target", "povray", "--tolerance", "1"};
-    words.insert(words.end(), more.begin(), more.end());
-    return run_candela(words);
+    folder.write("scene.toml", scene);
+    return folder.run("verify scene.toml --target povray --tolerance 1", more);
 }
 
 }  // namespace
 
 TEST_CASE("target/povray: POV-Ray draws RE example 2: cos theta is 0.7071, cos alpha 0.8575") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "floor.obj", "v 5 0 -5\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nf 1 2 3 4\n");
+    const Folder folder;
+    folder.write("floor.obj", "v 5 0 -5\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nf 1 2 3 4\n");
     CHECK(drawn_in_the_middle(folder, example_2("lambert", "ka = 0\nkd = 1\n")) ==
           levels(0.7071, 0.7071, 0.7071));
     CHECK(drawn_in_the_middle(folder, example_2("phong", "ka = 0\nkd = 0\nks = 1\nshininess = 1\n")) ==
@@ -98,10 +87,10 @@ TEST_CASE("target/povray: POV-Ray draws RE example 2: cos theta is 0.7071, cos a
 
 TEST_CASE(
     "target/povray: POV-Ray draws RE example 3, corrected, with coefficients that differ between channels") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     // With the note's normal, which is not quite that of its face.
-    write_file(folder / "face.obj",
-               "v .7 .1 .4\nv .1 .2 .2\nv .3 .5 .5\nvn .33333333 .66666667 -.66666667\nf 1//1 2//1 3//1\n");
+    folder.write("face.obj",
+                 "v .7 .1 .4\nv .1 .2 .2\nv .3 .5 .5\nvn .33333333 .66666667 -.66666667\nf 1//1 2//1 3//1\n");
     // A millimetre from V1 within the face, seen along z from the side of -z.
     const std::string scene =
         k_head +
@@ -136,8 +125,8 @@ shininess = 10
 }
 
 TEST_CASE("target/povray: camera, spot and background match figures computed by hand") {
-    const std::string text = generated(
-        scratch_directory(), k_head + R"(observer = {position = [0, 0, 4], look_at = [0, 0, 0], fov = 90}
+    const std::string text =
+        generated(Folder(), k_head + R"(observer = {position = [0, 0, 4], look_at = [0, 0, 0], fov = 90}
 image = {width = 200, height = 100, background = [255, 0, 255]}
 reflection = {model = "lambert"}
 [[light]]
@@ -165,7 +154,7 @@ type = "sphere"
 
 TEST_CASE("target/povray: a coarse ball is correct where its normals point away from the observer") {
     const CommandResult result =
-        verify(scratch_directory(), k_head + R"(observer = {position = [0, 0, 2.5], look_at = [0, 0, 0]}
+        verify(Folder(), k_head + R"(observer = {position = [0, 0, 2.5], look_at = [0, 0, 0]}
 image = {width = 200, height = 150, background = [0, 0, 90]}
 reflection = {model = "lambert"}
 [[light]]
@@ -182,9 +171,10 @@ radius = 0.8
 }
 
 TEST_CASE("target/povray: a triangle keeps normals that equal each other but not the face's") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "leaning.obj",
-               "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0.6 0 0.8\nf 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
+    const Folder folder;
+    folder.write(
+        "leaning.obj",
+        "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0.6 0 0.8\nf 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
     expect(verify(folder, k_head + R"(observer = {position = [0, 0, 3], look_at = [0, 0, 0]}
 image = {width = 100, height = 80}
 reflection = {model = "blinn-phong"}
@@ -200,10 +190,10 @@ file = "leaning.obj"
 }
 
 TEST_CASE("target/povray: colours at vertices match Candela's, even through a tinted highlight") {
-    const fs::path folder = scratch_directory();
-    write_file(folder / "colors.obj",
-               "v -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\nv 1 1 0 0 0 1\nv -1 1 0 1 1 0.5\nvn 0 0 1\n"
-               "f 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
+    const Folder folder;
+    folder.write("colors.obj",
+                 "v -1 -1 0 1 0 0\nv 1 -1 0 0 1 0\nv 1 1 0 0 0 1\nv -1 1 0 1 1 0.5\nvn 0 0 1\n"
+                 "f 1//1 2//1 3//1\nf 1//1 3//1 4//1\n");
     for (const std::string& highlight : {std::string("0.3"), std::string("[0.3, 0.2, 0.1]")}) {
         expect(verify(folder, k_head + R"(observer = {position = [0.3, 0.2, 3], look_at = [0, 0, 0]}
 image = {width = 120, height = 90}
@@ -224,14 +214,14 @@ ks = )" + highlight),
 }
 
 TEST_CASE("target/povray: a texture is only approximate, but correct where a texel is larger than a pixel") {
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     std::string texels = "P6\n8 8\n255\n";
     for (int i = 0; i < 64; ++i) {
         texels += static_cast<char>(i % 8 * 36);
         texels += static_cast<char>(i / 8 * 36);
         texels += static_cast<char>((i / 2 + i / 16) % 2 * 255);
     }
-    write_file(folder / "texture.ppm", texels);
+    folder.write("texture.ppm", texels);
     // One material has its color in the pigment, the other below a filter, and both have normals that turn
     // away.
     const std::string scene = k_head + R"(observer = {position = [0, 0, 3.4], look_at = [0, 0, 0]}
@@ -286,13 +276,13 @@ type = "cube"
 size = 0.3
 shading = "flat"
 )";
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     const CommandResult refused = generate(folder, scene);
     CHECK(refused.exit_code == 1);
-    CHECK_FALSE(fs::exists(folder / "made"));
+    CHECK_FALSE(folder.has("made"));
     const CommandResult accepted = generate(folder, scene, {"--approximate"});
     CHECK(accepted.exit_code == 0);
-    CHECK(fs::exists(folder / "made/scene.pov"));
+    CHECK(folder.has("made/scene.pov"));
     for (const std::string& name : {"reflection/ggx", "light/hemisphere", "light/spot", "shading/flat"}) {
         INFO(name);
         CHECK(holds(refused.err, name));

@@ -15,7 +15,7 @@
 
 #include "support/command.h"
 #include "support/expect.h"
-#include "support/text.h"
+#include "support/folder.h"
 
 namespace fs = std::filesystem;
 
@@ -30,25 +30,23 @@ void require_three() {
 }
 
 /// The scene within the page.
-Json generated(const fs::path& folder, const std::string& scene) {
-    const fs::path file = write_file(folder / "scene.toml", scene);
-    succeeded(run_candela(
-        {"generate", file.string(), "--target", "three", "-o", (folder / "made").string(), "--quiet"}));
-    const std::string page = read_file(folder / "made/scene.html");
+Json generated(const Folder& folder, const std::string& scene) {
+    folder.write("scene.toml", scene);
+    succeeded(folder.run("generate scene.toml --target three -o made --quiet"));
+    const std::string page = folder.read("made/scene.html");
     const std::string begin = "id=\"scene\">";
     const std::size_t at = page.find(begin) + begin.size();
     return Json::parse(page.substr(at, page.find("</script>", at) - at));
 }
 
 /// The middle pixel of the picture that the page draws, in levels.
-std::array<int, 3> drawn_in_the_middle(const fs::path& folder, const std::string& scene) {
-    const fs::path file = write_file(folder / "scene.toml", scene), report = folder / "report";
-    const CommandResult result =
-        run_candela({"verify", file.string(), "--target", "three", "--report", report.string()});
+std::array<int, 3> drawn_in_the_middle(const Folder& folder, const std::string& scene) {
+    folder.write("scene.toml", scene);
+    const CommandResult result = folder.run("verify scene.toml --target three --report report");
     INFO(result.out << result.err);
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
-    REQUIRE(png_image_begin_read_from_file(&image, (report / "three.png").c_str()) != 0);
+    REQUIRE(png_image_begin_read_from_file(&image, (folder / "report/three.png").c_str()) != 0);
     image.format = PNG_FORMAT_RGB;
     std::vector<png_byte> bytes(PNG_IMAGE_SIZE(image));
     REQUIRE(png_image_finish_read(&image, nullptr, bytes.data(), 0, nullptr) != 0);
@@ -88,9 +86,9 @@ image = {width = 9, height = 9, color_management = "none"}
            "material = {kd = 1, ka = 0.5}\n";
 }
 
-fs::path folder_with_wall() {
-    fs::path folder = scratch_directory();
-    write_file(folder / "wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
+Folder folder_with_wall() {
+    const Folder folder;
+    folder.write("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
     return folder;
 }
 
@@ -121,8 +119,8 @@ TEST_CASE(
     "target/three: three.js draws RE example 2 with its own material and with a kernel: 0.7071 and 0.8575",
     "[programs]") {
     require_three();
-    const fs::path folder = scratch_directory();
-    write_file(folder / "floor.obj", "v 5 0 -5\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nf 1 2 3 4\n");
+    const Folder folder;
+    folder.write("floor.obj", "v 5 0 -5\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nf 1 2 3 4\n");
     const std::string own = example_2("lambert", "ka = 0\nkd = 1\n");
     CHECK(generated(folder, own)["objects"][0]["lambert"].is_object());
     CHECK(drawn_in_the_middle(folder, own) == grey(0.7071));
@@ -132,7 +130,7 @@ TEST_CASE(
 
 TEST_CASE("target/three: three.js's own lights light a wall as strongly as computed by hand", "[whole]") {
     require_three();
-    const fs::path folder = folder_with_wall();
+    const Folder folder = folder_with_wall();
     // 2 / 2^2 before it, N.L 0.8 of 0.25 from the sun, and ka 0.5 of 0.2.
     const std::string lights = wall(
         "[[light]]\ntype = \"point\"\nposition = [0, 0, 2]\nintensity = 2\n"
@@ -150,7 +148,7 @@ TEST_CASE("target/three: three.js's own lights light a wall as strongly as compu
 
 TEST_CASE("target/three: three.js's lights and materials have the figures computed by hand") {
     require_three();
-    const Json page = generated(scratch_directory(), k_head + k_point + R"([[light]]
+    const Json page = generated(Folder(), k_head + k_point + R"([[light]]
 type = "spot"
 position = [0, 4, 0]
 direction = [0, -2, 0]
@@ -177,7 +175,7 @@ intensity = 0.25
 
 TEST_CASE("target/three: kernels compute what three.js computes differently", "[whole]") {
     require_three();
-    const fs::path folder = scratch_directory();
+    const Folder folder;
     const auto is_own = [&](const std::string& scene) {
         return generated(folder, scene)["objects"][0]["lambert"].is_object();
     };
@@ -198,10 +196,10 @@ TEST_CASE("target/three: kernels compute what three.js computes differently", "[
 
 TEST_CASE("target/three: an open mesh with colours at its vertices is correct from both sides", "[whole]") {
     require_three();
-    const fs::path folder = scratch_directory();
-    write_file(folder / "roof.obj",
-               "v -1 -1 0 1 0.2 0.2\nv 1 -1 0 0.2 1 0.2\nv 1 1 0 0.2 0.2 1\nv -1 1 0 1 1 1\n"
-               "f 1 2 3\nf 1 3 4\n");
+    const Folder folder;
+    folder.write("roof.obj",
+                 "v -1 -1 0 1 0.2 0.2\nv 1 -1 0 0.2 1 0.2\nv 1 1 0 0.2 0.2 1\nv -1 1 0 1 1 1\n"
+                 "f 1 2 3\nf 1 3 4\n");
     for (const std::string& light : {k_point, k_point + "[[light]]\ntype = \"ambient\"\n"}) {
         std::string objects;
         for (const auto& [turn, x] : {std::pair{20, -0.7}, {200, 0.7}})
@@ -209,19 +207,17 @@ TEST_CASE("target/three: an open mesh with colours at its vertices is correct fr
                 "[[object]]\ntype = \"mesh\"\nfile = \"roof.obj\"\nrotation = [0, {}, 0]\n"
                 "scale = [0.6, 0.6, 0.6]\nposition = [{}, 0, 0]\n",
                 turn, x);
-        const fs::path file = write_file(folder / "scene.toml", k_head + light + objects);
-        expect(run_candela({"verify", file.string(), "--target", "three", "--tolerance", "1", "--width",
-                            "200", "--height", "120"}),
-               0);
+        folder.write("scene.toml", k_head + light + objects);
+        expect(folder.run("verify scene.toml --target three --tolerance 1 --width 200 --height 120"), 0);
     }
 }
 
 TEST_CASE("target/three: without three.js, the error says which files belong where") {
-    const fs::path folder = scratch_directory(), plugins = CANDELA_TEST_PLUGINS;
+    const Folder folder;
+    const fs::path plugins = CANDELA_TEST_PLUGINS;
     for (const char* const name : {"target-three.so", "target-three.json"})
         fs::copy_file(plugins / name, folder / name, fs::copy_options::overwrite_existing);
-    expect(run_candela({"generate", "--target", "three", "--plugin-dir", folder.string(), "-o",
-                        (folder / "made").string()}),
-           1, {"three.js is missing", "npm pack three@", (folder / "target-three").string()});
-    CHECK_FALSE(fs::exists(folder / "made"));
+    expect(folder.run("generate --target three --plugin-dir . -o made"), 1,
+           {"three.js is missing", "npm pack three@", (folder / "target-three").string()});
+    CHECK_FALSE(folder.has("made"));
 }
