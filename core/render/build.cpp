@@ -28,10 +28,10 @@ namespace candela {
 
 namespace {
 
-/// A scene and what it was compiled to, from which the next frame takes whatever is unchanged.
+/// A scene and what was built from it, from which the next frame takes whatever is unchanged.
 struct Before {
     Scene scene;
-    RenderScene compiled;
+    RenderScene built;
     std::vector<std::vector<std::string>> warnings;  // of the objects' shapes
 };
 
@@ -46,11 +46,11 @@ bool is_placed_as(const Scene& a, const Scene& b) {
            std::ranges::equal(a.lights, b.lights, is_same_light);
 }
 
-class Compiler {
+class SceneBuilder {
   public:
     /// Moves reusable parts out of `before`, if it is not null.
-    Compiler(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics, const Progress& progress,
-             Before* before = nullptr)
+    SceneBuilder(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics,
+                 const Progress& progress, Before* before = nullptr)
         : scene_(draft.scene),
           registry_(registry),
           diagnostics_(diagnostics),
@@ -62,8 +62,8 @@ class Compiler {
                       : nullptr),
           warnings_(draft.scene.objects.size()) {
         tell();
-        compiled_.observer = scene_.observer;
-        compiled_.image = scene_.image;
+        built_.observer = scene_.observer;
+        built_.image = scene_.image;
         if (draft.is_complete) make_models();
         if (draft.is_complete) make_textures();
         if (draft.is_complete) make_environment();
@@ -87,7 +87,7 @@ class Compiler {
             },
             rough_milliseconds());
         if (diagnostics_.has_errors()) return std::nullopt;
-        return std::move(compiled_);
+        return std::move(built_);
     }
 
   private:
@@ -125,21 +125,21 @@ class Compiler {
             const LightSource& light = scene_.lights[i];
             if (before_ != nullptr && i < before_->scene.lights.size() &&
                 before_->scene.lights[i].model == light.model) {
-                compiled_.lights.push_back(std::move(before_->compiled.lights[i]));
+                built_.lights.push_back(std::move(before_->built.lights[i]));
                 continue;
             }
             guarded("light " + light.label.text(), light.place,
-                    [&] { compiled_.lights.push_back(render_light(registry_, light.model, encoding())); });
+                    [&] { built_.lights.push_back(render_light(registry_, light.model, encoding())); });
         }
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
             const Object& object = scene_.objects[i];
-            RenderObject& solid = compiled_.objects.emplace_back();
+            RenderObject& solid = built_.objects.emplace_back();
             solid.label = object.label.text();
             if (const Object* const old = object_before(i);
                 old != nullptr && old->color == object.color && old->color_texture == object.color_texture &&
                 old->color_texture_wrap == object.color_texture_wrap && old->shading == object.shading &&
                 old->reflection == object.reflection) {
-                solid.surface = std::move(before_->compiled.objects[i].surface);
+                solid.surface = std::move(before_->built.objects[i].surface);
                 continue;
             }
             guarded("object " + object.label.text(), object.place, [&] {
@@ -157,12 +157,10 @@ class Compiler {
     void make_textures() {
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
             const Object& object = scene_.objects[i];
-            if (object.color_texture.empty() || compiled_.objects[i].surface.color_texture != nullptr)
-                continue;
+            if (object.color_texture.empty() || built_.objects[i].surface.color_texture != nullptr) continue;
             const Object* const old = object_before(i);
             if (old != nullptr && old->color_texture == object.color_texture) {
-                compiled_.objects[i].surface.color_texture =
-                    before_->compiled.objects[i].surface.color_texture;
+                built_.objects[i].surface.color_texture = before_->built.objects[i].surface.color_texture;
                 continue;
             }
             guarded("object " + object.label.text(), object.texture_place, [&] {
@@ -176,7 +174,7 @@ class Compiler {
                                                          "are clamped: a surface cannot reflect more",
                                                          object.color_texture));
                 }
-                compiled_.objects[i].surface.color_texture = known->second;
+                built_.objects[i].surface.color_texture = known->second;
             });
         }
     }
@@ -184,7 +182,7 @@ class Compiler {
     void require_texture_coordinates(std::size_t i) {
         const Object& object = scene_.objects[i];
         // Read errors have been reported already.
-        if (compiled_.objects[i].surface.color_texture == nullptr) return;
+        if (built_.objects[i].surface.color_texture == nullptr) return;
         if (!placed_[i] || !placed_[i]->mesh.u.empty()) return;
         diagnostics_.error(
             object.texture_place,
@@ -193,14 +191,14 @@ class Compiler {
     }
 
     void make_environment() {
-        compiled_.environment = EnvironmentMap(decoded(scene_.image.background, encoding()));
+        built_.environment = EnvironmentMap(decoded(scene_.image.background, encoding()));
         if (scene_.image.environment.empty()) return;
         if (before_ != nullptr && before_->scene.image.environment == scene_.image.environment) {
-            compiled_.environment = std::move(before_->compiled.environment);
+            built_.environment = std::move(before_->built.environment);
             return;
         }
         guarded("environment", scene_.image.environment_place, [&] {
-            compiled_.environment = read_environment(scene_.image.environment, registry_, encoding());
+            built_.environment = read_environment(scene_.image.environment, registry_, encoding());
         });
     }
 
@@ -228,29 +226,28 @@ class Compiler {
     void place_shapes() {
         placed_.resize(scene_.objects.size());
         const auto has_surface = [&](std::size_t i) {
-            return i < compiled_.objects.size() && compiled_.objects[i].surface.shading != nullptr;
+            return i < built_.objects.size() && built_.objects[i].surface.shading != nullptr;
         };
         // All are created before the first is placed, so that shapes that read the same file read it once.
         std::vector<std::unique_ptr<Shape>> shapes(placed_.size());
         for (std::size_t i = 0; i < placed_.size(); ++i) {
             const Object& object = scene_.objects[i];
-            if (has_surface(i) && keep(i, compiled_.objects[i].surface.needs())) continue;
+            if (has_surface(i) && keep(i, built_.objects[i].surface.needs())) continue;
             guarded(object, PluginKind::shape, object.shape.name,
                     [&] { shapes[i] = made<Shape>(object.shape); });
         }
         for (std::size_t i = 0; i < placed_.size(); ++i) {
             const Object& object = scene_.objects[i];
-            const PointNeeds needs = has_surface(i) ? compiled_.objects[i].surface.needs() : PointNeeds{};
+            const PointNeeds needs = has_surface(i) ? built_.objects[i].surface.needs() : PointNeeds{};
             if (shapes[i] != nullptr) {
                 guarded(object, PluginKind::shape, object.shape.name, [&] {
-                    placed_[i] =
-                        place(*shapes[i],
-                              {.uv = needs.uv,
-                               .derivatives = needs.derivatives,
-                               .color = true,
-                               .facets = has_surface(i) && takes_facets(compiled_.objects[i].surface),
-                               .color_management = encoding()},
-                              object.transform, [this](double part) { tell(part); });
+                    placed_[i] = place(*shapes[i],
+                                       {.uv = needs.uv,
+                                        .derivatives = needs.derivatives,
+                                        .color = true,
+                                        .facets = has_surface(i) && takes_facets(built_.objects[i].surface),
+                                        .color_management = encoding()},
+                                       object.transform, [this](double part) { tell(part); });
                 });
                 shapes[i].reset();  // frees a file's triangles before the next file is read
                 if (placed_[i]) warnings_[i] = placed_[i]->warnings;
@@ -272,10 +269,10 @@ class Compiler {
         if (old == nullptr || old->shape != object.shape || old->transform != object.transform ||
             old->color != object.color || old->encloses != object.encloses || old->shading != object.shading)
             return false;
-        RenderObject& solid = before_->compiled.objects[i];
+        RenderObject& solid = before_->built.objects[i];
         if (solid.mesh.u.empty() == needs.uv || solid.mesh.dpdu.empty() == needs.derivatives) return false;
-        compiled_.objects[i].mesh = std::move(solid.mesh);
-        compiled_.objects[i].tree = std::move(solid.tree);
+        built_.objects[i].mesh = std::move(solid.mesh);
+        built_.objects[i].tree = std::move(solid.tree);
         warnings_[i] = std::move(before_->warnings[i]);
         ++kept_;
         return true;
@@ -292,9 +289,9 @@ class Compiler {
     void check(const SceneDraft& draft) {
         std::vector<SurfaceView> surfaces(placed_.size());
         for (std::size_t i = 0; i < placed_.size(); ++i) {
-            const Mesh* const mesh = placed_[i]                     ? &placed_[i]->mesh
-                                     : i < compiled_.objects.size() ? &compiled_.objects[i].mesh
-                                                                    : nullptr;
+            const Mesh* const mesh = placed_[i]                  ? &placed_[i]->mesh
+                                     : i < built_.objects.size() ? &built_.objects[i].mesh
+                                                                 : nullptr;
             if (mesh == nullptr || mesh->vertex_count() == 0) continue;
             surfaces[i] = {mesh->position.span(), mesh->vertex_count(), mesh->indices, mesh->open_edges == 0};
         }
@@ -307,7 +304,7 @@ class Compiler {
         double sum = 0;
         for (std::size_t i = 0; i < placed_.size(); ++i) {
             if (!placed_[i]) continue;
-            const double each = needs_tree(compiled_.objects[i]) ? k_normals + k_tree : k_normals;
+            const double each = needs_tree(built_.objects[i]) ? k_normals + k_tree : k_normals;
             sum += each * static_cast<double>(placed_[i]->mesh.triangle_count());
         }
         return sum;
@@ -319,7 +316,7 @@ class Compiler {
 
     void make_trees() {
         std::vector<RenderObject*> without;
-        for (RenderObject& solid : compiled_.objects) {
+        for (RenderObject& solid : built_.objects) {
             if (needs_tree(solid)) without.push_back(&solid);
         }
         parallel_for(without.size(), 1, [&](std::size_t first, std::size_t end) {
@@ -332,7 +329,7 @@ class Compiler {
 
     void finish(std::size_t i) {
         const Object& object = scene_.objects[i];
-        RenderObject& solid = compiled_.objects[i];
+        RenderObject& solid = built_.objects[i];
         if (placed_[i]) {
             guarded(object, PluginKind::shading, object.shading.name,
                     [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
@@ -364,7 +361,7 @@ class Compiler {
     std::size_t steps_done_ = 0;
     Before* before_;        // source of everything unchanged; null: nothing is
     std::size_t kept_ = 0;  // objects whose triangles were taken
-    RenderScene compiled_;
+    RenderScene built_;
     std::vector<std::optional<PlacedShape>> placed_;
     std::vector<std::vector<std::string>> warnings_;  // of the objects' shapes
     std::set<std::string> said_;
@@ -375,7 +372,7 @@ class Compiler {
 
 std::optional<RenderScene> build(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics,
                                  int threads, const Progress& progress) {
-    return Compiler(draft, registry, diagnostics, progress).take(threads);
+    return SceneBuilder(draft, registry, diagnostics, progress).take(threads);
 }
 
 struct FrameBuilder::Kept {
@@ -395,12 +392,12 @@ const RenderScene* FrameBuilder::build(const SceneDraft& draft, Diagnostics& dia
     // If this one throws, nothing of the previous frame is kept.
     std::optional<Before> before = std::exchange(kept_->before, std::nullopt);
     const Progress silent;
-    Compiler compiler(draft, kept_->registry, diagnostics, silent, before ? &*before : nullptr);
-    kept_->has_kept_triangles = compiler.has_kept_triangles();
-    auto compiled = compiler.take(threads);
-    if (!compiled) return nullptr;
-    kept_->before = Before{draft.scene, *std::move(compiled), compiler.take_warnings()};
-    return &kept_->before->compiled;
+    SceneBuilder builder(draft, kept_->registry, diagnostics, silent, before ? &*before : nullptr);
+    kept_->has_kept_triangles = builder.has_kept_triangles();
+    auto built = builder.take(threads);
+    if (!built) return nullptr;
+    kept_->before = Before{draft.scene, *std::move(built), builder.take_warnings()};
+    return &kept_->before->built;
 }
 
 std::optional<RenderScene> build(const Scene& scene, Registry& registry, Diagnostics& diagnostics,
