@@ -1,11 +1,9 @@
-// The frames of an animated scene, compiled one after the other.
+// The frames of an animated scene, built one after the other.
 module;
 
 #include "candela/plugin/export.h"
 
-#include <functional>
 #include <memory>
-#include <span>
 
 export module candela.render:frames;
 
@@ -16,7 +14,7 @@ import candela.util;
 
 export namespace candela {
 
-/// Compiles one frame after the other, like build(), and carries over to the next whatever has not changed:
+/// Builds one frame after the other, like build(), and carries over to the next whatever has not changed:
 /// triangles, lights, models, the environment. Constraints are checked again only if something has moved. One
 /// thread at a time.
 class CANDELA_EXPORT FrameBuilder {
@@ -35,10 +33,5 @@ class CANDELA_EXPORT FrameBuilder {
     struct Kept;
     std::unique_ptr<Kept> kept_;
 };
-
-/// Validates frames like build(), and reports every problem once: with the number of the first frame that
-/// has it, unless all frames do, and with the track that causes it. `progress` counts frames.
-CANDELA_EXPORT void check_frames(SceneFrames& frames, std::span<const int> numbers, Registry& registry,
-                                 Diagnostics& diagnostics, int threads = 0, const Progress& progress = {});
 
 }  // namespace candela

@@ -2,9 +2,7 @@
 export module candela.render;
 
 export import :render_scene;
-export import :exported_scene;
 export import :film;
 export import :frames;
 export import :pixel_inspector;
-export import :rendered_rows;
 export import :renderer;

@@ -12,6 +12,7 @@ export module candela.render:render_scene;
 
 import candela.geometry;
 import candela.plugins;
+import candela.raster;
 import candela.scene;
 import candela.shading;
 import candela.util;
@@ -36,6 +37,9 @@ struct RenderScene {
     std::vector<RenderLight> lights;
     std::vector<RenderObject> objects;
 };
+
+/// The observer's camera for a picture of that size.
+CANDELA_EXPORT Camera camera_of(const Observer& observer, int width, int height);
 
 /// Receives the progress of some work.
 using Progress = std::function<void(std::size_t done, std::size_t all)>;

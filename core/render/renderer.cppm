@@ -66,10 +66,4 @@ class CANDELA_EXPORT Renderer {
     std::unique_ptr<Kept> kept_;
 };
 
-/// Why a picture shows no light on any object, and what to do, as the end of the sentence "nothing in the
-/// picture is lit: …". Empty if something is lit, or if the scene has no objects or no lights, which was
-/// reported when it was read.
-CANDELA_EXPORT std::string darkness_diagnosis(const RenderScene& scene, const Film& film,
-                                              const RenderStatistics& statistics);
-
 }  // namespace candela

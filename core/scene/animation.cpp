@@ -20,8 +20,8 @@ module candela.scene;
 
 import :animating;
 import :fields;
-import :merge;
 import :models;
+import :setting;
 import :tables;
 import candela.plugins;
 import candela.util;
@@ -241,7 +241,7 @@ class AnimationReader {
     /// installed, which is reported with the table that names it.
     std::optional<Parameter> parameter_at(const std::string& path, const SourceLocation& place) {
         const std::vector<std::string> parts = canonical_parts(path, elements_);
-        if (!leads_somewhere(path, parts, place)) return std::nullopt;
+        if (!leads_somewhere(parts, place)) return std::nullopt;
         const auto schema = std::ranges::find(scene_schema(), parts[0], &TableSchema::name);
         if (parts[0] == "animation" || parts[0] == "include" || parts[0] == "version") {
             diagnostics_.error(place, fmt::format("'{}' cannot be animated", path));
@@ -264,8 +264,7 @@ class AnimationReader {
 
     /// Reports a path that cannot be set, by trying it on a copy of the table that contains it. A copy of the
     /// whole scene for each track would take minutes if there are thousands.
-    bool leads_somewhere(const std::string& path, const std::vector<std::string>& parts,
-                         const SourceLocation& place) {
+    bool leads_somewhere(const std::vector<std::string>& parts, const SourceLocation& place) {
         TableNode scratch;
         if (const TableNode::Entry* const entry = tables_.root().find(parts[0])) {
             const ArrayNode* const all = entry->node.array();
@@ -280,7 +279,7 @@ class AnimationReader {
             }
             if (parts[0] != "animation" || parts.size() < 2) scratch.entries.push_back(*entry);
         }
-        return set_value(scratch, path, Node{place, false}, place, diagnostics_);
+        return set_value(scratch, parts, Node{place, false}, place, diagnostics_);
     }
 
     std::optional<Parameter> parameter_in(const TableSchema& schema, const std::string& path,

@@ -20,7 +20,8 @@ module;
 module candela.scene;
 
 import :animating;
-import :merge;
+import :document;
+import :setting;
 import :reading;
 import :tables;
 import candela.api;
@@ -115,8 +116,8 @@ TableNode at_frame(const TableNode& root, const Animation& animation, int frame)
     Diagnostics ignored;  // the paths are known to lead somewhere
     for (const Track& track : animation.tracks) {
         const SourceLocation& place = key_before(track, time).place;
-        set_value(result, track.path, node_of(value_at(track, time), track.type, place), place, ignored,
-                  &elements);
+        set_value(result, parts_of(track.path), node_of(value_at(track, time), track.type, place), place,
+                  ignored, &elements);
     }
     if (animation.orbit) go_around(result, *animation.orbit, static_cast<double>(frame) / animation.frames);
     return result;

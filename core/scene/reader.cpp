@@ -18,7 +18,7 @@ module;
 module candela.scene;
 
 import :fields;
-import :merge;
+import :document;
 import :models;
 import :reading;
 import :tables;

@@ -16,6 +16,7 @@ export module candela.scene;
 
 export import :animation;
 export import :content;
+export import :document;
 export import :request;
 export import :schema;
 export import :toml;
@@ -69,15 +70,6 @@ CANDELA_EXPORT std::optional<Scene> read_scene(const SceneRequest& request, Regi
 /// UTF-8, fractional colours, nameless objects with another number than their index, shading parameters that
 /// differ between objects.
 CANDELA_EXPORT std::string scene_text(const Scene& scene);
-
-/// The texts of those files of a scene that `changes` modify, with the changes applied: values are replaced
-/// in place or added to their tables; comments, order and everything else stay. The files are not touched.
-/// Reports what is wrong with the scene or the changes, and then returns nothing. Throws Error (bad_request)
-/// if the changed files would yield a different scene than `request` with `changes` in its settings, for
-/// example because a setting or an object's own model prevails.
-CANDELA_EXPORT std::vector<TextChange> edited_files(const SceneRequest& request,
-                                                    const std::vector<Setting>& changes, Registry& registry,
-                                                    Diagnostics& diagnostics);
 
 /// The built-in scene: one cube, one point light in the centre of the room, Phong shading, Phong reflection
 /// (R12, R14).

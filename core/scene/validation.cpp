@@ -21,6 +21,7 @@ module;
 
 module candela.scene;
 
+import :text;
 import candela.api;
 import candela.plugins;
 import candela.util;
@@ -235,20 +236,18 @@ bool is_written_as_list(const Node& node, const Diagnostics& diagnostics) {
 /// Checks that a file exists; returns its absolute path.
 std::optional<std::string> existing_file(const std::string& written, const SourceLocation& place,
                                          Diagnostics& diagnostics) {
-    // Paths from the command line (line 0) are relative to the working directory.
-    const fs::path base = place.line > 0 ? fs::path(place.file).parent_path() : fs::path();
+    const fs::path path = path_at(place, written);
     std::error_code problem;
-    const fs::path file = fs::absolute(base / written, problem).lexically_normal();
+    const fs::path file = fs::absolute(path, problem).lexically_normal();
     const fs::file_status status = fs::status(file, problem);
     if (status.type() == fs::file_type::regular) return file.string();
     const char* const what = status.type() == fs::file_type::directory   ? "is a directory, not a file"
                              : status.type() == fs::file_type::not_found ? "does not exist"
                                                                          : "is not a regular file";
-    diagnostics.error(
-        place, fmt::format("'{}' {}", written, what),
-        status.type() == fs::file_type::not_found
-            ? joined(file_suggestion(base / written), fmt::format("(looked for {})", file.string()))
-            : "");
+    diagnostics.error(place, fmt::format("'{}' {}", written, what),
+                      status.type() == fs::file_type::not_found
+                          ? joined(file_suggestion(path), fmt::format("(looked for {})", file.string()))
+                          : "");
     return std::nullopt;
 }
 

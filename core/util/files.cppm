@@ -121,21 +121,6 @@ CANDELA_EXPORT std::filesystem::path canonical_path(const std::filesystem::path&
 CANDELA_EXPORT void write_text_file(const std::filesystem::path& path, std::string_view text,
                                     Existing existing = Existing::replaced);
 
-/// Creates the folder `owned`, relative to `parent` and chosen by Candela, and the parents of both. No part
-/// of `owned` may be a symbolic link. Throws Error (failure).
-CANDELA_EXPORT void make_owned_folder(const std::filesystem::path& parent,
-                                      const std::filesystem::path& owned);
-
-/// A file's text as it was read, and its replacement.
-struct TextChange {
-    std::filesystem::path file;
-    std::string before, after;
-};
-
-/// Replaces texts, all or none: if a file no longer contains the text that was read, because another program
-/// has saved it meanwhile, nothing is written. Throws Error (failure).
-CANDELA_EXPORT void replace_texts(std::span<const TextChange> changes);
-
 /// Removes the temporary files that exist at this moment; they will not be finished. For signal handlers
 /// (async-signal-safe). A program that never calls it leaves them behind only if a signal ends the process.
 CANDELA_EXPORT void remove_unfinished_files() noexcept;

@@ -240,22 +240,4 @@ void write_text_file(const fs::path& path, std::string_view text, Existing exist
     file.finish();
 }
 
-void replace_texts(std::span<const TextChange> changes) {
-    std::vector<std::unique_ptr<OutputFile>> files;
-    for (const TextChange& change : changes) {
-        files.push_back(std::make_unique<OutputFile>(change.file));
-        files.back()->write(change.after);
-        files.back()->complete();
-    }
-    for (const TextChange& change : changes) {
-        if (read_text_file(change.file) != change.before)
-            throw Error(
-                ErrorCategory::failure,
-                fmt::format("'{}' was saved by another program meanwhile; not overwriting it. Run the "
-                            "command again to change the new version",
-                            change.file.string()));
-    }
-    for (const auto& file : files) file->finish();
-}
-
 }  // namespace candela

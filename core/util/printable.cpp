@@ -80,27 +80,4 @@ std::string printable(std::string_view text, LineBreaks line_breaks) {
     }
 }
 
-std::string printable_json(std::string_view json) {
-    std::string result;
-    result.reserve(json.size());
-    while (!json.empty()) {
-        const std::string_view character = first_character(json);
-        json.remove_prefix(character.size());
-        const auto hidden = character == "\n" ? std::nullopt : hidden_code_point(character);
-        if (is_invalid(character)) {
-            result += "\\ufffd";
-        } else if (!hidden) {
-            result += character;
-        } else if (*hidden < 0x10000) {
-            fmt::format_to(std::back_inserter(result), "\\u{:04x}", static_cast<std::uint32_t>(*hidden));
-        } else {
-            // JSON escapes UTF-16 code units.
-            const auto bits = static_cast<std::uint32_t>(*hidden) - 0x10000;
-            fmt::format_to(std::back_inserter(result), "\\u{:04x}\\u{:04x}", 0xd800 + (bits >> 10),
-                           0xdc00 + (bits & 0x3ff));
-        }
-    }
-    return result;
-}
-
 }  // namespace candela

@@ -24,9 +24,6 @@ enum class LineBreaks : bool { escaped, kept };
 /// Tabs are kept.
 CANDELA_EXPORT std::string printable(std::string_view text, LineBreaks line_breaks = LineBreaks::escaped);
 
-/// The same JSON, with such characters as JSON escapes: they can only occur in its strings.
-CANDELA_EXPORT std::string printable_json(std::string_view json);
-
 /// The code point of a character that printable() escapes, tabs and line breaks included; nothing for any
 /// other, and for a byte that is not UTF-8.
 CANDELA_EXPORT std::optional<char32_t> hidden_code_point(std::string_view character);

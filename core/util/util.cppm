@@ -1,4 +1,4 @@
-// The tools of all stages: messages, files, processes, memory, texts.
+// The tools of all stages: messages, files, memory, texts.
 export module candela.util;
 
 export import :arrays;
@@ -6,6 +6,5 @@ export import :canary;
 export import :diagnostics;
 export import :files;
 export import :memory;
-export import :process;
 export import :simd;
 export import :text;

@@ -18,6 +18,7 @@
 
 #include "candela/kernel_language/calls.h"
 #include "candela/kernel_language/compiler.h"
+#include "process/process.h"
 
 import candela.api;
 import candela.util;

@@ -3,6 +3,8 @@
 #include <sstream>
 #include <system_error>
 
+#include "process/process.h"
+
 import candela.plugins;
 import candela.util;
 

@@ -15,6 +15,7 @@
 #include "candela/kernel_language/compiler.h"
 #include "candela/kernel_language/language.h"
 #include "candela/kernel_language/model.h"
+#include "process/process.h"
 #include "sandbox/temporary_folder.h"
 
 import candela.api;

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "render/darkness_diagnosis.h"
+#include "render/rendered_rows.h"
 #include "support/compiled.h"
 
 namespace {

@@ -178,7 +178,7 @@ constexpr std::array k_texture_mutations = {
 /// Replaces all occurrences. None is an error of this test, because the fault would be missing.
 std::string edited(std::string text, const Edit& edit) {
     INFO("no longer in the program: " << edit.from);
-    REQUIRE(holds(text, edit.from));
+    REQUIRE(holds(text, std::string(edit.from)));
     for (std::size_t at = 0; (at = text.find(edit.from, at)) != std::string::npos; at += edit.to.size())
         text.replace(at, edit.from.size(), edit.to);
     return text;

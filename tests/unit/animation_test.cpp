@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "console/diagnostics_text.h"
+#include "render/frame_checks.h"
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/text.h"

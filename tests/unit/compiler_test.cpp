@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "process/process.h"
 #include "support/command.h"
 
 import candela.util;

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "json/json.h"
 #include "support/text.h"
 
 import candela.core;
@@ -56,7 +57,7 @@ TEST_CASE("printable text is valid UTF-8, and unchanged when made printable agai
 TEST_CASE("printable JSON means the same") {
     const std::string hidden = "\x7f\xc2\x9b\xe2\x80\xae\xf3\xa0\x80\x81 \xc3\xa9";
     const nlohmann::json value = {{"name", hidden}, {"list", {1, "a\n\x1b"}}};
-    const std::string text = candela::printable_json(value.dump(2));
+    const std::string text = printable_json(value.dump(2));
     CHECK(printable(text, LineBreaks::kept) == text);
     CHECK(holds(text, "\xc3\xa9"));
     CHECK(nlohmann::json::parse(text) == value);

@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "process/process.h"
+
 import candela.util;
 
 using candela::AnsweringProgram;

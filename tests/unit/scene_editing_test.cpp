@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "console/diagnostics_text.h"
+#include "scene_edit/scene_edit.h"
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/random_scene.h"

@@ -2,6 +2,7 @@
 
 #include "images.h"
 #include "module.h"
+#include "scene_edit/text_edits.h"
 #include "values.h"
 
 import candela.api;

@@ -1,4 +1,5 @@
 #include "values.h"
+#include "scene_edit/text_edits.h"
 
 import candela.util;
 

@@ -8,6 +8,7 @@
 #include "cli/model_scene.h"
 #include "console/reporting.h"
 #include "console/terminal.h"
+#include "render/frame_checks.h"
 
 std::optional<candela::RenderScene> compile_scene(const candela::SceneDraft& draft,
                                                   candela::Registry& registry,

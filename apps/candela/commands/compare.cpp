@@ -26,6 +26,7 @@
 #include "console/exit_code.h"
 #include "console/reporting.h"
 #include "console/terminal.h"
+#include "render/darkness_diagnosis.h"
 #include "json/json.h"
 
 import candela.api;

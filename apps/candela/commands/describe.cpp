@@ -12,6 +12,7 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "console/wrapping.h"
+#include "json/json.h"
 
 import candela.util;
 
@@ -135,7 +136,7 @@ int run_describe(const std::vector<std::string>& arguments) {
     candela::Registry registry = registry_from(line);
     const candela::PluginFile& file = plugin_called(line.all("plugin").front(), registry);
     if (line.has("json")) {
-        std::cout << candela::printable_json(candela::to_json(file.manifest));
+        std::cout << printable_json(candela::to_json(file.manifest));
     } else {
         print(file);
     }

@@ -11,6 +11,7 @@
 #include "console/exit_code.h"
 #include "console/reporting.h"
 #include "import/import.h"
+#include "scene_edit/scene_edit.h"
 
 import candela.render;
 import candela.util;

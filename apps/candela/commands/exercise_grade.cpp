@@ -17,6 +17,7 @@
 #include "console/terminal.h"
 #include "exercise/exercises.h"
 #include "json/json.h"
+#include "process/process.h"
 #include "programs/sibling_program.h"
 #include "sandbox/temporary_folder.h"
 

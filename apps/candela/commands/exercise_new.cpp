@@ -22,6 +22,7 @@
 #include "exercise/exercise_page.h"
 #include "exercise/exercises.h"
 #include "plot/model_argument.h"
+#include "scene_export/scene_export.h"
 
 import candela.api;
 import candela.plugins;

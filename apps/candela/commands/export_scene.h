@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "scene_export/exported_program.h"
+#include "scene_export/scene_export.h"
 #include "verify/targets.h"
 
 import candela.render;

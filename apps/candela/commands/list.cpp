@@ -10,6 +10,7 @@
 #include "console/reporting.h"
 #include "console/terminal.h"
 #include "console/wrapping.h"
+#include "json/json.h"
 
 import candela.util;
 
@@ -52,7 +53,7 @@ int run_list(const std::vector<std::string>& arguments) {
     }
     report_refusals(registry);
     if (line.has("json")) {
-        std::cout << candela::printable_json(candela::to_json(manifests));
+        std::cout << printable_json(candela::to_json(manifests));
         return 0;
     }
     std::optional<candela::PluginKind> heading;

@@ -21,6 +21,7 @@
 #include "console/reporting.h"
 #include "console/stopwatch.h"
 #include "console/terminal.h"
+#include "render/darkness_diagnosis.h"
 #include "sandbox/temporary_folder.h"
 
 import candela.api;

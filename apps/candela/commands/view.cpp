@@ -17,6 +17,7 @@
 #include "commands/export_scene.h"
 #include "console/reporting.h"
 #include "console/terminal.h"
+#include "process/process.h"
 #include "sandbox/temporary_folder.h"
 #include "verify/targets.h"
 #include "viewer/explainer.h"

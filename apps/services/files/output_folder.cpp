@@ -5,6 +5,8 @@
 #include <string>
 #include <system_error>
 
+#include "files/owned_files.h"
+
 import candela.util;
 
 namespace fs = std::filesystem;
@@ -52,7 +54,7 @@ void move_files(const fs::path& from, const fs::path& to) {
     if (!names) throw fs::filesystem_error("", from, std::make_error_code(std::errc::io_error));
     for (const std::string& name : *names) {
         if (fs::is_directory(fs::symlink_status(from / name))) {
-            candela::make_owned_folder(to, name);
+            make_owned_folder(to, name);
             move_files(from / name, to / name);
         } else {
             fs::rename(from / name, to / name);

@@ -20,3 +20,7 @@ std::string end_of_owned_file(const std::filesystem::path& file, std::size_t mos
 /// Writes it atomically; a link in its place is replaced. Throws candela::Error (failure).
 void write_owned_file(const std::filesystem::path& file, std::string_view text,
                       candela::Durability durability = candela::Durability::durable);
+
+/// Creates the folder `owned`, relative to `parent` and chosen by Candela, and the parents of both. No part
+/// of `owned` may be a symbolic link. Throws candela::Error (failure).
+void make_owned_folder(const std::filesystem::path& parent, const std::filesystem::path& owned);

@@ -12,6 +12,7 @@
 
 #include "files/output_folder.h"
 #include "film/frame_pattern.h"
+#include "process/process.h"
 #include "sandbox/temporary_folder.h"
 
 import candela.util;

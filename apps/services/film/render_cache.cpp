@@ -158,7 +158,7 @@ void record(const fs::path& picture, const std::string& inputs, Links links) {
     const auto text = record_text(picture, inputs, links);
     if (!text) throw Error(ErrorCategory::failure, fmt::format("'{}' cannot be read", picture.string()));
     const fs::path file = record_of(picture);
-    candela::make_owned_folder(folder_of(picture), file.parent_path().filename());
+    make_owned_folder(folder_of(picture), file.parent_path().filename());
     // Fast is enough: after a crash, a damaged record does not match the picture, which is then rendered
     // again.
     write_owned_file(file, *text, candela::Durability::fast);

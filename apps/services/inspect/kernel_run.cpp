@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "candela/kernel_language/compiler.h"
+#include "process/process.h"
 
 import candela.util;
 

@@ -106,7 +106,7 @@ void write_description(const PartedImage& parted, const fs::path& picture) {
                               {"parts", parted.parts},
                               {"inputs", parted.inputs}};
     const std::string text = json_text(description, 1) + '\n';
-    candela::make_owned_folder(folder_of(picture), folder_of_parts(picture).filename());
+    make_owned_folder(folder_of(picture), folder_of_parts(picture).filename());
     // All parts have the same description.
     if (read_owned_file(description_of(picture), k_largest_description) != text)
         write_owned_file(description_of(picture), text);

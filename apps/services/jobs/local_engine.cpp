@@ -19,6 +19,7 @@
 #include "jobs/engines.h"
 #include "jobs/heartbeat.h"
 #include "jobs/state.h"
+#include "process/process.h"
 #include "sandbox/process_tree.h"
 
 import candela.util;

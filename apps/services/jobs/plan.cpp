@@ -88,8 +88,8 @@ std::vector<JobFolder> JobFolder::all_in(const fs::path& directory) {
 
 void JobFolder::make() const {
     const fs::path jobs = path_.parent_path();
-    candela::make_owned_folder(folder_of(jobs.parent_path()),
-                               jobs.parent_path().filename() / jobs.filename() / path_.filename());
+    make_owned_folder(folder_of(jobs.parent_path()),
+                      jobs.parent_path().filename() / jobs.filename() / path_.filename());
 }
 
 void write_plan(const JobPlan& plan, const JobFolder& folder) {

@@ -5,6 +5,7 @@
 
 #include "film/frame_pattern.h"
 #include "jobs/engines.h"
+#include "process/process.h"
 #include "programs/shell_words.h"
 
 import candela.util;

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "scene_export/exported_program.h"
+
 import candela.plugins;
 import candela.render;
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "process/process.h"
+
 import candela.util;
 
 using candela::Error;

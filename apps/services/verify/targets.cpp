@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scene_export/system_programs.h"
+
 import candela.plugins;
 import candela.util;
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "process/process.h"
 #include "viewer/request.h"
 #include "viewer/server.h"
 

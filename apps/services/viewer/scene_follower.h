@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "process/process.h"
 #include "sandbox/temporary_folder.h"
 #include "viewer/publication.h"
 #include "viewer/server.h"

@@ -91,9 +91,6 @@ struct TileWorker {
 
 // The stages of the pipeline; see pipeline.cpp.
 
-/// The observer's camera for a picture of that size.
-Camera camera_of(const Observer& observer, int width, int height);
-
 /// Projects a scene's meshes and sorts their triangles into the tiles that overlap these rows of the picture.
 /// Throws Error.
 void project_scene(const RenderScene& scene, int width, int height, RowRange rows, int tile_size, int samples,

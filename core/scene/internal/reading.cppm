@@ -1,7 +1,7 @@
 module candela.scene:reading;
 
 import :content;
-import :merge;
+import :document;
 import :request;
 import candela.plugins;
 import candela.util;

@@ -11,7 +11,7 @@ module;
 module candela.scene:tables;
 
 import :fields;
-import :merge;
+import :document;
 import :schema;
 import :toml;
 import :validation;

@@ -124,4 +124,9 @@ std::optional<std::string> text_of_bytes(std::string text, const std::string& sh
     return text;
 }
 
+std::filesystem::path path_at(const SourceLocation& place, const std::string& written) {
+    return (place.line > 0 ? std::filesystem::path(place.file).parent_path() : "") /
+           std::filesystem::path(written);
+}
+
 }  // namespace candela

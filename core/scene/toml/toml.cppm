@@ -10,7 +10,6 @@ module;
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -27,8 +26,8 @@ struct TableNode {
     struct Entry;
     std::vector<Entry> entries;
 
-    const Entry* find(std::string_view key) const;
-    Entry* find(std::string_view key);
+    CANDELA_EXPORT const Entry* find(std::string_view key) const;
+    CANDELA_EXPORT Entry* find(std::string_view key);
 };
 
 using ArrayNode = std::vector<Node>;
@@ -40,10 +39,10 @@ struct Node {
     SourceLocation place;
     std::variant<bool, std::int64_t, double, std::string, DateNode, ArrayNode, TableNode> value;
 
-    const TableNode* table() const { return std::get_if<TableNode>(&value); }
-    TableNode* table() { return std::get_if<TableNode>(&value); }
-    const ArrayNode* array() const { return std::get_if<ArrayNode>(&value); }
-    ArrayNode* array() { return std::get_if<ArrayNode>(&value); }
+    inline const TableNode* table() const { return std::get_if<TableNode>(&value); }
+    inline TableNode* table() { return std::get_if<TableNode>(&value); }
+    inline const ArrayNode* array() const { return std::get_if<ArrayNode>(&value); }
+    inline ArrayNode* array() { return std::get_if<ArrayNode>(&value); }
 };
 
 struct TableNode::Entry {
@@ -88,50 +87,5 @@ CANDELA_EXPORT std::optional<TableNode> parse_document(std::string_view text, co
 /// Parses a value as written after a `=`; bare words are strings. Reports problems at `place`.
 CANDELA_EXPORT std::optional<Node> parse_value(std::string_view text, const SourceLocation& place,
                                                Diagnostics& diagnostics);
-
-/// Any value, on one line.
-CANDELA_EXPORT std::string toml_text(const Node& node);
-
-/// A part of a text, and its replacement.
-struct TextEdit {
-    std::size_t begin = 0, end = 0;  // bytes
-    std::string text;
-};
-
-/// The text that a document was parsed from, for editing.
-class CANDELA_EXPORT SourceText {
-  public:
-    explicit SourceText(std::string text);
-
-    const std::string& text() const noexcept { return text_; }
-    /// "\r\n" if there is one, else "\n".
-    std::string_view line_break() const noexcept { return line_break_; }
-    /// The offset of a line and a column, which count from 1, in characters.
-    std::size_t offset_of(const SourceLocation& place) const;
-
-  private:
-    std::string text_;
-    std::string_view line_break_;
-    std::vector<std::size_t> line_begins_;
-};
-
-/// Whether a table has its own header or braces, instead of being made by dotted keys in the lines of
-/// another.
-CANDELA_EXPORT bool has_lines_of_its_own(const SourceText& text, const Node& table);
-
-CANDELA_EXPORT TextEdit replacement(const SourceText& text, const Node& value, const std::string& by);
-
-/// Keys, which may be dotted, and values as TOML.
-using Entries = std::vector<std::pair<std::string, std::string>>;
-
-/// Adds entries after the last one of a table, or of the document, which has no header.
-CANDELA_EXPORT TextEdit insertion(const SourceText& text, const TableNode& table,
-                                  const SourceLocation* header, const Entries& entries);
-
-/// Adds a table at the end.
-CANDELA_EXPORT TextEdit new_table(const SourceText& text, const std::string& name, const Entries& entries);
-
-/// Applies edits; those at one offset in their order. Throws Error (bad_request) if two overlap.
-CANDELA_EXPORT std::string edited(std::string_view text, const std::vector<TextEdit>& edits);
 
 }  // namespace candela

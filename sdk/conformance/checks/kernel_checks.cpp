@@ -14,6 +14,7 @@
 #include "batch.h"
 #include "candela/kernel_language/compiler.h"
 #include "kernel_program.h"
+#include "process/process.h"
 #include "sandbox/temporary_folder.h"
 
 import candela.api;

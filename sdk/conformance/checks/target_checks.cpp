@@ -17,6 +17,9 @@
 
 #include "conditions.h"
 #include "sandbox/temporary_folder.h"
+#include "scene_export/exported_program.h"
+#include "scene_export/scene_export.h"
+#include "scene_export/system_programs.h"
 #include "subject.h"
 
 import candela.plugins;

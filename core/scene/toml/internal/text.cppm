@@ -23,6 +23,10 @@ std::optional<std::string> text_of_file(const std::filesystem::path& file, const
 std::optional<std::string> text_of_bytes(std::string bytes, const std::string& shown_name,
                                          std::uintmax_t& bytes_left, Diagnostics& diagnostics);
 
+/// A path as written at `place`: relative to its file's folder, or, on the command line (line 0), to the
+/// working directory.
+std::filesystem::path path_at(const SourceLocation& place, const std::string& written);
+
 /// The position of a byte of a text.
 SourceLocation place_at(std::string_view text, std::size_t offset, const std::string& shown_name);
 

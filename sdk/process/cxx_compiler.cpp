@@ -1,4 +1,4 @@
-module;
+#include "process/process.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,6 @@ module;
 #include <filesystem>
 #include <optional>
 #include <string>
-
-module candela.util;
 
 namespace candela {
 

@@ -1,5 +1,5 @@
 // Owns the memory behind the spans of an ExportedScene.
-module;
+#pragma once
 
 #include <cstddef>
 #include <deque>
@@ -8,12 +8,11 @@ module;
 #include <string>
 #include <vector>
 
-module candela.render:export_storage;
-
 import candela.api;
 import candela.geometry;
 import candela.plugins;
 import candela.shading;
+import candela.util;
 
 namespace candela {
 

@@ -1,4 +1,4 @@
-module;
+#include "scene_export/export_storage.h"
 
 #include <fmt/format.h>
 
@@ -13,10 +13,11 @@ module;
 #include <variant>
 #include <vector>
 
-module candela.render;
-
-import :export_storage;
 import candela.api;
+import candela.geometry;
+import candela.plugins;
+import candela.scene;
+import candela.shading;
 import candela.util;
 
 namespace candela {

@@ -1,25 +1,19 @@
 // A picture that need not fit into memory.
-module;
-
-#include "candela/plugin/export.h"
+#pragma once
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-export module candela.render:rendered_rows;
-
-import :render_scene;
-import :film;
-import :renderer;
 import candela.api;
+import candela.render;
 
-export namespace candela {
+namespace candela {
 
 /// Renders rows of a picture on request, a band at a time: the same pixels as candela::render(), in memory
 /// for two bands of about 64 MB. One thread at a time.
-class CANDELA_EXPORT RenderedRows final : public ImageRows {
+class RenderedRows final : public ImageRows {
   public:
     /// The scene must outlive this. `options.progress` counts rows.
     RenderedRows(const RenderScene& scene, PixelType pixels, RowRange rows, RenderOptions options);

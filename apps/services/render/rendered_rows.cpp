@@ -1,4 +1,4 @@
-module;
+#include "render/rendered_rows.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,9 +8,10 @@ module;
 #include <utility>
 #include <vector>
 
-module candela.render;
+#include "render/darkness_diagnosis.h"
 
 import candela.api;
+import candela.render;
 import candela.scene;
 
 namespace candela {

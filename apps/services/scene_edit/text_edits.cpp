@@ -1,5 +1,4 @@
-// Replaces and adds values in a document's text; everything else stays as it is.
-module;
+#include "scene_edit/text_edits.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +12,7 @@ module;
 #include <variant>
 #include <vector>
 
-module candela.scene;
-
+import candela.scene;
 import candela.util;
 
 namespace candela {

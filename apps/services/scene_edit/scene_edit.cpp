@@ -1,22 +1,23 @@
-// Writes changes of a scene into its files.
-module;
+#include "scene_edit/scene_edit.h"
 
 #include <fmt/format.h>
 
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
-module candela.scene;
+#include "scene_edit/text_edits.h"
 
-import :merge;
 import candela.plugins;
+import candela.scene;
 import candela.util;
 
 namespace candela {
@@ -185,6 +186,24 @@ std::vector<TextChange> edited_files(const SceneRequest& request, const std::vec
             "something takes precedence over them, such as an object's own model or an option");
     }
     return texts;
+}
+
+void replace_texts(std::span<const TextChange> changes) {
+    std::vector<std::unique_ptr<OutputFile>> files;
+    for (const TextChange& change : changes) {
+        files.push_back(std::make_unique<OutputFile>(change.file));
+        files.back()->write(change.after);
+        files.back()->complete();
+    }
+    for (const TextChange& change : changes) {
+        if (read_text_file(change.file) != change.before)
+            throw Error(
+                ErrorCategory::failure,
+                fmt::format("'{}' was saved by another program meanwhile; not overwriting it. Run the "
+                            "command again to change the new version",
+                            change.file.string()));
+    }
+    for (const auto& file : files) file->finish();
 }
 
 }  // namespace candela

@@ -1,4 +1,4 @@
-module;
+#include "scene_export/exported_program.h"
 
 #include <fmt/format.h>
 
@@ -11,8 +11,7 @@ module;
 #include <utility>
 #include <vector>
 
-module candela.render;
-
+import candela.api;
 import candela.plugins;
 
 namespace candela {

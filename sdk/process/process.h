@@ -1,35 +1,15 @@
 // Runs programs of this machine, without a shell.
-module;
-
-#include "candela/plugin/export.h"
+#pragma once
 
 #include <chrono>
-#include <condition_variable>
 #include <filesystem>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <thread>
 #include <vector>
 
-export module candela.util:process;
-
 namespace candela {
-
-/// Lock it while making pipes and starting a program. A program that another thread starts at that moment
-/// would keep the pipes open, and their reader would wait for its end.
-std::mutex& starting();
-
-/// Call it in the child process before exec. Otherwise the new program would inherit the signals that the
-/// thread has blocked, and the open files and sockets. It keeps only the three standard streams.
-/// Async-signal-safe.
-void shed_inheritance() noexcept;
-
-}  // namespace candela
-
-export namespace candela {
 
 /// How a program ended: by itself, or by run_program(), because its time was up or it was no longer wanted.
 enum class ProgramEnd { own, late, unwanted };
@@ -49,23 +29,22 @@ struct Patience {
 };
 
 /// The path of an executable of that name on PATH.
-CANDELA_EXPORT std::optional<std::filesystem::path> program_called(const std::string& name);
+std::optional<std::filesystem::path> program_called(const std::string& name);
 
 /// The C++ compiler of this machine: the one that the environment variable CXX names, otherwise the newest
 /// clang++, otherwise the newest g++. Nothing if there is none.
-CANDELA_EXPORT std::optional<std::filesystem::path> cxx_compiler();
+std::optional<std::filesystem::path> cxx_compiler();
 
 /// Runs a program without input and waits for it. A name without '/' is looked up on PATH. Throws Error
 /// (failure) if the program cannot be started. Any thread.
-CANDELA_EXPORT ProgramOutput run_program(const std::vector<std::string>& words,
-                                         const Patience& patience = {});
+ProgramOutput run_program(const std::vector<std::string>& words, const Patience& patience = {});
 
 /// Like run_program(), but inherits this process's streams. Returns the exit code.
-CANDELA_EXPORT int show_program(const std::vector<std::string>& words);
+int show_program(const std::vector<std::string>& words);
 
 /// A program that answers each line of input with a line, and ends at the end of its input. One thread at a
 /// time.
-class CANDELA_EXPORT AnsweringProgram {
+class AnsweringProgram {
   public:
     /// Starts the program; throws like run_program().
     explicit AnsweringProgram(const std::vector<std::string>& words);
@@ -87,7 +66,7 @@ class CANDELA_EXPORT AnsweringProgram {
 
 /// A program that prepares itself, then waits for a line on its standard input before doing its work. One
 /// thread at a time.
-class CANDELA_EXPORT WaitingProgram {
+class WaitingProgram {
   public:
     /// Starts the program; throws like run_program().
     explicit WaitingProgram(const std::vector<std::string>& words);
@@ -102,35 +81,6 @@ class CANDELA_EXPORT WaitingProgram {
   private:
     class Implementation;
     std::unique_ptr<Implementation> implementation_;
-};
-
-}  // namespace candela
-
-namespace candela {
-
-/// Ends a program that runs out of patience.
-class Overseer {
-  public:
-    /// `process`: its process ID. Nobody else may wait for the process until await() has returned.
-    Overseer(int process, const Patience& patience);
-    Overseer(const Overseer&) = delete;
-    Overseer& operator=(const Overseer&) = delete;
-    ~Overseer();
-
-    /// Waits for the program's end, and returns how it ended. The exit status can still be collected from the
-    /// system.
-    ProgramEnd await();
-
-  private:
-    void dismiss();
-    void oversee(const Patience& patience);
-
-    int process_;
-    std::mutex mutex_;
-    std::condition_variable_any news_;
-    bool has_ended_ = false;
-    ProgramEnd end_ = ProgramEnd::own;
-    std::thread thread_;
 };
 
 }  // namespace candela

@@ -1,4 +1,4 @@
-module;
+#include "scene_export/scene_export.h"
 
 #include <fmt/format.h>
 
@@ -13,12 +13,12 @@ module;
 #include <utility>
 #include <vector>
 
-module candela.render;
+#include "scene_export/export_storage.h"
 
-import :export_storage;
 import candela.api;
 import candela.plugins;
 import candela.raster;
+import candela.scene;
 import candela.shading;
 import candela.util;
 

@@ -1,13 +1,13 @@
-module;
+#include "scene_export/system_programs.h"
 
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-module candela.render;
+#include "process/process.h"
 
-import candela.util;
+import candela.api;
 
 namespace candela {
 

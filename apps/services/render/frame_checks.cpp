@@ -1,5 +1,4 @@
-// All frames are validated before the first one is rendered.
-module;
+#include "render/frame_checks.h"
 
 #include <fmt/format.h>
 
@@ -13,9 +12,8 @@ module;
 #include <utility>
 #include <vector>
 
-module candela.render;
-
 import candela.plugins;
+import candela.render;
 import candela.scene;
 import candela.util;
 

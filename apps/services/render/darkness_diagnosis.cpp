@@ -1,5 +1,4 @@
-// "Why is it black?"
-module;
+#include "render/darkness_diagnosis.h"
 
 #include <fmt/format.h>
 
@@ -10,14 +9,13 @@ module;
 #include <cstdint>
 #include <string>
 
-module candela.render;
-
-import :tile;
 import candela.api;
 import candela.geometry;
 import candela.raster;
+import candela.render;
 import candela.scene;
 import candela.shading;
+import candela.util;
 
 namespace candela {
 

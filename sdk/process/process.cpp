@@ -1,11 +1,11 @@
-module;
-
-#include "candela/file_descriptor.h"
+#include "process/process.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <linux/close_range.h>
 #include <poll.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -17,10 +17,13 @@ module;
 #include <boost/process/args.hpp>
 #include <boost/process/child.hpp>
 #include <boost/process/extend.hpp>
+#include <boost/process/io.hpp>
+#include <boost/process/pipe.hpp>
 #include <boost/process/posix.hpp>
 #include <boost/process/search_path.hpp>
 #include <cerrno>
 #include <chrono>
+#include <condition_variable>
 #include <csignal>
 #include <cstddef>
 #include <cstring>
@@ -35,7 +38,9 @@ module;
 #include <utility>
 #include <vector>
 
-module candela.util;
+#include "candela/file_descriptor.h"
+
+import candela.util;
 
 namespace candela {
 
@@ -44,6 +49,133 @@ namespace {
 namespace process = boost::process;
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
+
+/// Lock it while making pipes and starting a program. A program that another thread starts at that moment
+/// would keep the pipes open, and their reader would wait for its end.
+std::mutex& starting() {
+    static std::mutex mutex;
+    return mutex;
+}
+
+/// Call it in the child process before exec. Otherwise the new program would inherit the signals that the
+/// thread has blocked, and the open files and sockets. It keeps only the three standard streams.
+/// Async-signal-safe.
+void shed_inheritance() noexcept {
+    sigset_t none;
+    ::sigemptyset(&none);
+    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+    constexpr unsigned k_first = STDERR_FILENO + 1;
+    if (::close_range(k_first, ~0U, CLOSE_RANGE_CLOEXEC) == 0) return;
+    // Linux before 5.11.
+    constexpr rlim_t k_most = 65536;
+    rlimit files{};
+    if (::getrlimit(RLIMIT_NOFILE, &files) != 0) files.rlim_cur = k_most;
+    const int end = static_cast<int>(std::min(files.rlim_cur, k_most));
+    for (int file = k_first; file < end; ++file) ::fcntl(file, F_SETFD, FD_CLOEXEC);
+}
+
+/// Ends a program that runs out of patience.
+class Overseer {
+  public:
+    /// `process`: its process ID. Nobody else may wait for the process until await() has returned.
+    Overseer(int process, const Patience& patience);
+    Overseer(const Overseer&) = delete;
+    Overseer& operator=(const Overseer&) = delete;
+    ~Overseer();
+
+    /// Waits for the program's end, and returns how it ended. The exit status can still be collected from the
+    /// system.
+    ProgramEnd await();
+
+  private:
+    void dismiss();
+    void oversee(const Patience& patience);
+
+    int process_;
+    std::mutex mutex_;
+    std::condition_variable_any news_;
+    bool has_ended_ = false;
+    ProgramEnd end_ = ProgramEnd::own;
+    std::thread thread_;
+};
+
+Overseer::Overseer(int process, const Patience& patience) : process_(process) {
+    if (patience.longest || patience.unwanted.stop_possible())
+        thread_ = std::thread([this, patience] { oversee(patience); });
+}
+
+Overseer::~Overseer() { dismiss(); }
+
+ProgramEnd Overseer::await() {
+    // Leaves the process to be waited for: until then, its ID is not reused.
+    siginfo_t state{};
+    while (::waitid(P_PID, static_cast<id_t>(process_), &state, WEXITED | WNOWAIT) < 0 && errno == EINTR) {
+    }
+    dismiss();
+    return end_;
+}
+
+void Overseer::dismiss() {
+    {
+        const std::lock_guard lock(mutex_);
+        has_ended_ = true;
+    }
+    news_.notify_all();
+    if (thread_.joinable()) thread_.join();
+}
+
+void Overseer::oversee(const Patience& patience) {
+    constexpr std::chrono::hours k_ever{24 * 365};
+    constexpr std::chrono::seconds k_longest_end{2};
+    std::unique_lock lock(mutex_);
+    const auto has_ended = [this] { return has_ended_; };
+    if (news_.wait_for(lock, patience.unwanted, patience.longest.value_or(k_ever), has_ended)) return;
+    end_ = patience.unwanted.stop_requested() ? ProgramEnd::unwanted : ProgramEnd::late;
+    ::kill(process_, SIGTERM);
+    if (!news_.wait_for(lock, k_longest_end, has_ended)) ::kill(process_, SIGKILL);
+}
+
+template <class... Streams>
+process::child started(const std::vector<std::string>& words, Streams&&... streams) {
+    const std::string& name = words.front();
+    std::filesystem::path program = name;
+    if (name.find('/') == std::string::npos) {
+        const auto found = program_called(name);
+        if (!found) {
+            throw Error(ErrorCategory::failure,
+                        fmt::format("this needs the program '{}', which is not installed", name));
+        }
+        program = *found;
+    }
+    try {
+        const std::vector<std::string> arguments(words.begin() + 1, words.end());
+        return process::child(
+            program, process::args(arguments),
+            process::extend::on_exec_setup = [](auto&) { shed_inheritance(); },
+            std::forward<Streams>(streams)...);
+    } catch (const std::system_error& problem) {
+        throw Error(ErrorCategory::failure,
+                    fmt::format("'{}' cannot be run: {}", name, problem.code().message()));
+    }
+}
+
+int exit_code_of(process::child& child) {
+    child.wait();
+    const int status = child.native_exit_code();
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// Reads in large pieces: a stream would read a kilobyte at a time.
+std::string all_of(process::ipstream& stream) {
+    std::string text;
+    std::vector<char> piece(std::size_t{1} << 16);
+    for (;;) {
+        const ssize_t count = ::read(stream.pipe().native_source(), piece.data(), piece.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return text;
+        text.append(piece.data(), static_cast<std::size_t>(count));
+    }
+}
 
 constexpr milliseconds k_longest_end{2000};
 
@@ -87,21 +219,13 @@ class ChildProcess {
         // In memory, so that a program that prints a lot does not wait for a reader.
         : errors_(valid(::memfd_create("errors", MFD_CLOEXEC))) {
         std::array<FileDescriptor, 2> ends = connected();
-        const std::vector<std::string> arguments(words.begin() + 1, words.end());
         const std::lock_guard lock(starting());
-        try {
-            process::child child(
-                std::filesystem::path(words.front()), process::args(arguments),
-                process::extend::on_exec_setup = [](auto&) { shed_inheritance(); },
-                process::posix::fd.bind(STDIN_FILENO, ends[1].number()),
-                process::posix::fd.bind(STDOUT_FILENO, output < 0 ? ends[1].number() : output),
-                process::posix::fd.bind(STDERR_FILENO, errors_.number()));
-            process_ = child.id();
-            child.detach();
-        } catch (const std::system_error& problem) {
-            throw Error(ErrorCategory::failure,
-                        fmt::format("'{}' cannot be run: {}", words.front(), problem.code().message()));
-        }
+        process::child child =
+            started(words, process::posix::fd.bind(STDIN_FILENO, ends[1].number()),
+                    process::posix::fd.bind(STDOUT_FILENO, output < 0 ? ends[1].number() : output),
+                    process::posix::fd.bind(STDERR_FILENO, errors_.number()));
+        process_ = child.id();
+        child.detach();
         connection_ = std::move(ends[0]);
     }
     ChildProcess(const ChildProcess&) = delete;
@@ -154,6 +278,33 @@ class ChildProcess {
 };
 
 }  // namespace
+
+std::optional<std::filesystem::path> program_called(const std::string& name) {
+    const auto path = process::search_path(name);
+    return path.empty() ? std::nullopt : std::optional(path);
+}
+
+ProgramOutput run_program(const std::vector<std::string>& words, const Patience& patience) {
+    std::unique_lock lock(starting());
+    process::ipstream out, err;
+    process::child child =
+        started(words, process::std_in<process::null, process::std_out> out, process::std_err > err);
+    lock.unlock();
+    ProgramOutput output;
+    Overseer overseer(child.id(), patience);
+    // A program that has filled one pipe waits for its reader, so both are read at once.
+    std::thread reader([&] { output.err = all_of(err); });
+    output.out = all_of(out);
+    reader.join();
+    output.end = overseer.await();
+    output.exit_code = exit_code_of(child);
+    return output;
+}
+
+int show_program(const std::vector<std::string>& words) {
+    process::child child = started(words);
+    return exit_code_of(child);
+}
 
 class AnsweringProgram::Implementation {
   public:

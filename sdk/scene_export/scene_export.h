@@ -1,7 +1,5 @@
-// A validated scene as targets see it, and the files that they make of it.
-module;
-
-#include "candela/plugin/export.h"
+// A validated scene as targets see it.
+#pragma once
 
 #include <cstddef>
 #include <functional>
@@ -11,13 +9,11 @@ module;
 #include <string>
 #include <vector>
 
-export module candela.render:exported_scene;
-
-export import candela.api;
+import candela.api;
 import candela.plugins;
 import candela.scene;
 
-export namespace candela {
+namespace candela {
 
 /// Models to switch to, in addition to those of the scene: names of reflection or shading models ("phong" is
 /// both), ids such as "shading/flat", or "all", which means all that the target supports.
@@ -36,7 +32,7 @@ struct ExportRequest {
 };
 
 /// An ExportedScene and all its memory.
-class CANDELA_EXPORT SceneExport {
+class SceneExport {
   public:
     /// Loads the plugins of `scene`. Throws Error if the target cannot express it, and (usage) if an extra
     /// model is unknown. `registry` must outlive this.
@@ -50,33 +46,6 @@ class CANDELA_EXPORT SceneExport {
   private:
     struct Storage;
     std::unique_ptr<Storage> storage_;
-};
-
-struct ExportedFile {
-    std::string name;  // relative; without ".."
-    std::string content;
-};
-
-/// The files that a target makes of a scene.
-struct ExportedProgram {
-    std::vector<ExportedFile> files;
-    std::vector<std::string> approximations;  // what it expresses only approximately: FileSink::approximate()
-};
-
-/// Throws Error that names the target if write() throws, or if a file's name leads outside the folder or
-/// occurs twice. `name`: the target's.
-CANDELA_EXPORT ExportedProgram program_of(const Target& target, const std::string& name,
-                                          const ExportedScene& scene);
-
-/// Runs programs as this process's user.
-class CANDELA_EXPORT SystemPrograms final : public ProgramRunner {
-  public:
-    bool has(const char* program) override;
-    ProgramResult run(std::span<const char* const> words) override;
-    int show(std::span<const char* const> words) override;
-
-  private:
-    std::string out_, err_;
 };
 
 }  // namespace candela
