@@ -45,7 +45,8 @@ Json schema(const std::vector<Manifest>& installed) {
 
 TEST_CASE("without plugins, no plugin name is allowed, but the scene's own keys are") {
     const Json root = schema({});
-    CHECK(root["properties"]["light"]["items"]["properties"]["type"]["enum"] == Json::array());
+    CHECK(root["properties"]["object"]["items"]["properties"]["type"]["enum"] == Json::array());
+    CHECK(root["properties"]["light"]["items"]["properties"]["type"]["anyOf"][0]["enum"] == Json::array());
     CHECK(root["properties"]["room"]["properties"]["height"]["exclusiveMinimum"] == 0);
     CHECK(root["properties"]["room"]["properties"]["height"]["default"] == 10);
     CHECK_FALSE(root.contains("definitions"));

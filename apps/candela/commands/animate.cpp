@@ -17,11 +17,11 @@
 #include "console/stopwatch.h"
 #include "console/terminal.h"
 #include "files/output_folder.h"
-#include "render/darkness_diagnosis.h"
 #include "film/film_encoding.h"
 #include "film/frame_pattern.h"
 #include "film/frame_writer.h"
 #include "film/render_cache.h"
+#include "render/darkness_diagnosis.h"
 #include "sandbox/temporary_folder.h"
 
 import candela.render;

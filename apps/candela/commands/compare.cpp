@@ -26,8 +26,8 @@
 #include "console/exit_code.h"
 #include "console/reporting.h"
 #include "console/terminal.h"
-#include "render/darkness_diagnosis.h"
 #include "json/json.h"
+#include "render/darkness_diagnosis.h"
 
 import candela.api;
 import candela.render;

@@ -15,10 +15,9 @@
 #include "console/reporting.h"
 #include "console/stopwatch.h"
 #include "console/terminal.h"
-#include "render/darkness_diagnosis.h"
 #include "film/render_cache.h"
-#include "render/rendered_rows.h"
 #include "jobs/image_parts.h"
+#include "render/rendered_rows.h"
 
 import candela.api;
 import candela.plugins;

@@ -6,6 +6,7 @@
 
 #include "console/reporting.h"
 #include "console/terminal.h"
+#include "render/rendered_rows.h"
 
 import candela.api;
 import candela.util;

@@ -14,7 +14,7 @@ import termios
 import time
 
 COMMAND = os.path.abspath(os.environ.get("CANDELA_TEST_COMMAND") or os.environ["CANDELA"])
-SHELLS = pathlib.Path(__file__).resolve().parent.parent.parent / "apps/candela/cli/shells"
+SHELLS = pathlib.Path(__file__).resolve().parents[3] / "apps/candela/cli/shells"
 LONGEST = 60  # seconds, on a busy machine
 KINDS = {"bash": ["bash", "--norc", "--noprofile", "-i"], "zsh": ["zsh", "-f", "-i"], "fish": ["fish", "--no-config", "-i"]}
 WHAT_IS_TYPED = "\x18\x0b"  # makes the shell record its line; a terminal ignores it

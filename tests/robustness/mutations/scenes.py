@@ -24,7 +24,8 @@ WORDS = [b"[[object]]", b"[[light]]", b"[observer]", b"[image]", b"[room]", b"[c
 
 
 def seeds() -> list:
-    found = sorted((ROOT / "docs" / "examples").glob("*.toml")) + sorted((ROOT / "tests/robustness/fuzz/corpus/scene").iterdir())
+    corpus = ROOT / "tests/robustness/fuzz/corpus/scene"
+    found = sorted((ROOT / "docs" / "examples").glob("*.toml")) + sorted(path for path in corpus.rglob("*") if path.is_file())
     contents = [path.read_bytes() for path in found]
     # Mutants of a thousandfold nesting show nothing new.
     return [content for content in contents if 0 < len(content) < 20_000]
