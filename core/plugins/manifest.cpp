@@ -33,9 +33,11 @@ using Json = nlohmann::ordered_json;
 constexpr int k_manifest_version = 1;
 
 Json json_of(const Value& value, ParamType type) {
-    if (const auto* const text = std::get_if<std::string>(&value)) return *text;
+    if (const auto* const string = std::get_if<std::string>(&value)) return *string;
     // A scene may have one number for three; a manifest does not.
-    return Json::parse(toml_text(value, type == ParamType::rgb ? ParamType::vector : type));
+    const std::string text = toml_text(value, type == ParamType::rgb ? ParamType::vector : type);
+    // As a view, like manifests: a parser of strings' iterators would be compiled as well.
+    return Json::parse(std::string_view(text));
 }
 
 Json json_of(const Parameter& p) {
