@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Reads the compiler's records of loops, and fails if a batch loop was left scalar.
-#   check.sh OBJECT_DIR…     directories with object files and their optimisation records (*.opt.yaml)
+#   check.sh OBJECT[:OBJECT…]…     for each library, its object files, which have their optimisation records next to them (*.opt.yaml)
 # Every version of every loop (candela::Multiversion<…>::baseline, avx2, avx512) in an object file must be vectorised in that
-# file's record, by at least 4, 8 and 16; and every directory must have such loops. A loop whose name ends in ByHand is vectorised by
+# file's record, by at least 4, 8 and 16; and every library must have such loops. A loop whose name ends in ByHand is vectorised by
 # hand, and has no record.
 set -euo pipefail
 
@@ -37,17 +37,17 @@ widths() {
 loops=0
 scalar=0
 empty=0
-for directory in "$@"; do
+for library in "$@"; do
     before=$loops
     while read -r _ width least symbol object; do
         loops=$((loops + 1))
         [ "$width" -lt "$least" ] || continue
         scalar=$((scalar + 1))
         printf 'NOT VECTORIZED (width %s, expected %s): %s\n  in %s\n' "$width" "$least" "$(c++filt "$symbol")" "$object"
-    done < <(find "$directory" -name '*.o' -print0 | sort -z | xargs -0 -r nm -A --defined-only | widths)
+    done < <(printf '%s' "$library" | tr ':' '\0' | xargs -0 -r nm -A --defined-only | widths)
     if [ "$loops" -eq "$before" ]; then
         empty=$((empty + 1))
-        printf 'NO BATCH LOOPS in %s\n' "$directory"
+        printf 'NO BATCH LOOPS in %s\n' "${library//:/ }"
     fi
 done
 printf '%d versions of batch loops, %d of them scalar\n' "$loops" "$scalar"
