@@ -14,7 +14,7 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "commands/animation_output.h"
-#include "commands/job_submission.h"
+#include "commands/submission/job_submission.h"
 #include "console/exit_code.h"
 #include "console/reporting.h"
 #include "files/output_folder.h"

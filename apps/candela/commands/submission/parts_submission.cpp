@@ -8,7 +8,7 @@
 #include "cli/output_format.h"
 #include "cli/outputs.h"
 #include "cli/scene_compilation.h"
-#include "commands/job_submission.h"
+#include "commands/submission/job_submission.h"
 #include "jobs/image_parts.h"
 
 import candela.render;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "commands/animation_output.h"
-#include "commands/job_submission.h"
+#include "commands/submission/job_submission.h"
 #include "film/render_cache.h"
 #include "programs/shell_words.h"
 

@@ -1,4 +1,4 @@
-#include "commands/job_submission.h"
+#include "commands/submission/job_submission.h"
 
 #include <algorithm>
 #include <filesystem>
