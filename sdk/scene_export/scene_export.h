@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>  // before <memory>, whose std::align depends on it
 #include <functional>
 #include <memory>
 #include <optional>
