@@ -113,9 +113,9 @@ std::vector<Completion> models(candela::Registry& registry, PluginKind kind) {
 bool is_path(std::string_view typed) {
     const std::size_t slash = typed.find('/');
     return slash != std::string_view::npos &&
-           std::ranges::find(candela::k_plugin_kinds, typed.substr(0, slash), [](PluginKind kind) {
-               return candela::name_of(kind);
-           }) == std::end(candela::k_plugin_kinds);
+           std::ranges::none_of(candela::k_plugin_kinds, [&](PluginKind kind) {
+               return candela::name_of(kind) == typed.substr(0, slash);
+           });
 }
 
 std::vector<Completion> kinds() {
