@@ -26,10 +26,22 @@ if(CANDELA_SANITIZE)
 endif()
 
 # For code that is not run for each fragment, vertex or byte. Optimising the sanitizers' code takes longer than running it unoptimised.
+# Inlining is most of the time that such units take to optimise.
 set(CANDELA_COLD_CODE_OPTIONS $<$<CONFIG:Release>:-O1>)
+if(CMAKE_BUILD_TYPE STREQUAL Release AND CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+    list(APPEND CANDELA_COLD_CODE_OPTIONS -mllvm -inline-threshold=30)
+endif()
 if(CANDELA_SANITIZE AND NOT CANDELA_SANITIZE MATCHES fuzzer)
     set(CANDELA_COLD_CODE_OPTIONS -O0)
 endif()
+
+# candela_unite(<target>): compiles the target's sources as one, which takes half the time, where nobody edits them: in builds without
+# tests, and with sanitizers.
+function(candela_unite target)
+    if(NOT CANDELA_TESTS OR CANDELA_SANITIZE)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
+    endif()
+endfunction()
 
 # {fmt} 10 has internal format strings that clang 20 and newer do not consider constants.
 find_package(fmt REQUIRED)

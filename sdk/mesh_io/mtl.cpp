@@ -44,7 +44,7 @@ bool are_all(const std::vector<double>& values, double value) {
     return !values.empty() && std::ranges::all_of(values, [&](double x) { return x == value; });
 }
 
-class Reader {
+class MaterialReader {
   public:
     MaterialLibrary read(std::string_view text) {
         MtlMaterial* current = nullptr;
@@ -144,6 +144,6 @@ class Reader {
 
 }  // namespace
 
-MaterialLibrary read_mtl(std::string_view text) { return Reader().read(text); }
+MaterialLibrary read_mtl(std::string_view text) { return MaterialReader().read(text); }
 
 }  // namespace mesh_io

@@ -23,7 +23,7 @@ constexpr std::uint32_t k_none = 0xffff'ffffu;
 /// The vertex, and optionally the texture coordinates and normal, that a corner names.
 using Corner = std::array<std::uint32_t, 3>;
 
-struct Hash {
+struct CornerHash {
     std::size_t operator()(const Corner& corner) const {
         std::uint64_t h = 0x9e3779b97f4a7c15u;
         for (const std::uint32_t part : corner) h = (h ^ part) * 0xff51afd7ed558ccdu, h ^= h >> 32;
@@ -31,9 +31,9 @@ struct Hash {
     }
 };
 
-class Reader {
+class ObjReader {
   public:
-    Reader(std::string_view text, const Origin& origin, const Progress& progress)
+    ObjReader(std::string_view text, const Origin& origin, const Progress& progress)
         : scanner_(text, progress), origin_(origin) {}
 
     Surface read() {
@@ -308,7 +308,7 @@ class Reader {
             surface_.color = std::move(color_);
             return;
         }
-        boost::unordered_flat_map<Corner, std::uint32_t, Hash> vertex_of;
+        boost::unordered_flat_map<Corner, std::uint32_t, CornerHash> vertex_of;
         vertex_of.reserve(position_.size());
         for (std::size_t i = 0; i < corners_.size(); ++i) {
             const Corner& corner = corners_[i];
@@ -382,7 +382,7 @@ class Reader {
 }  // namespace
 
 Surface read_obj(std::string_view text, const Origin& origin, const Progress& progress) {
-    return Reader(without_mark(text), origin, progress).read();
+    return ObjReader(without_mark(text), origin, progress).read();
 }
 
 }  // namespace mesh_io

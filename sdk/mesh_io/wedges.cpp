@@ -15,7 +15,7 @@ namespace {
 /// A vertex, texture coordinates and a colour, bit by bit.
 using Key = std::array<std::uint32_t, 6>;
 
-struct Hash {
+struct KeyHash {
     std::size_t operator()(const Key& key) const {
         std::uint64_t h = 0x9e3779b97f4a7c15u;
         for (const std::uint32_t part : key) h = (h ^ part) * 0xff51afd7ed558ccdu, h ^= h >> 32;
@@ -33,7 +33,7 @@ void split_by_wedges(const Wedges& wedges, Polygons& polygons, Surface& surface)
     surface = {};
     surface.losses = whole.losses;
     surface.notes = whole.notes;
-    boost::unordered_flat_map<Key, std::uint32_t, Hash> vertex_of;
+    boost::unordered_flat_map<Key, std::uint32_t, KeyHash> vertex_of;
     vertex_of.reserve(polygons.corners.size());
     std::size_t corner = 0;
     for (std::size_t face = 0; face < polygons.ends.size(); ++face) {

@@ -82,7 +82,7 @@ struct Rows {
     }
 };
 
-[[noreturn]] void fail() { throw std::runtime_error("a PNG file cannot hold this picture"); }
+[[noreturn]] void refuse() { throw std::runtime_error("a PNG file cannot hold this picture"); }
 
 struct PngOptions {
     std::int32_t compression;
@@ -96,7 +96,7 @@ class Png final : public candela::ImageFormat, public candela::ScanlineImageForm
                candela::ByteSink& sink) const override {
         if (picture.bytes.size() != k_pixel * static_cast<std::size_t>(std::max(picture.width, 0)) *
                                         static_cast<std::size_t>(std::max(picture.height, 0)))
-            fail();
+            refuse();
         candela::ViewedRows rows(picture);
         write_rows(picture, rows, extension, sink);
     }
@@ -107,7 +107,7 @@ class Png final : public candela::ImageFormat, public candela::ScanlineImageForm
                     candela::ByteSink& sink) const override {
         const auto width = static_cast<std::size_t>(std::max(picture.width, 0));
         const auto height = static_cast<std::size_t>(std::max(picture.height, 0));
-        if (width == 0 || height == 0 || width > k_longest_row / k_pixel) fail();
+        if (width == 0 || height == 0 || width > k_longest_row / k_pixel) refuse();
         const std::size_t row = k_pixel * width;
 
         Bytes head = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};

@@ -11,8 +11,6 @@ namespace mesh {
 
 namespace {
 
-constexpr std::size_t k_per_task = 16384;
-
 std::uint32_t next_in_triangle(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 mesh_io::Array<std::uint32_t> places_of(const mesh_io::Surface& surface) {
     mesh_io::Array<std::uint32_t> places(surface.position.size());

@@ -1,6 +1,7 @@
 // Finds the corners of triangles that meet at one place.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -8,6 +9,9 @@
 #include "mesh_io/surface.h"
 
 namespace mesh {
+
+/// Triangles, corners or places that a thread takes at a time.
+inline constexpr std::size_t k_per_task = 16384;
 
 /// The corners of a surface's triangles, sorted by place. A place is a position, compared bit by bit; its
 /// number is that of the first vertex there.

@@ -13,8 +13,6 @@ namespace mesh {
 
 namespace {
 
-constexpr std::size_t k_per_task = 16384;
-
 /// Unit normals per triangle: the file's, which are exact even for slivers, or else computed from the
 /// corners; zero where neither exists.
 mesh_io::Array<Vec3> normals_of(const mesh_io::Surface& surface) {

@@ -17,8 +17,6 @@ namespace mesh {
 
 namespace {
 
-constexpr std::size_t k_per_task = 16384;
-
 /// Six times a part's volume, and the sum of the absolute values of its terms.
 struct Volume {
     double sum = 0, size = 0;

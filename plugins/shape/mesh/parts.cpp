@@ -14,8 +14,6 @@ namespace mesh {
 
 namespace {
 
-constexpr std::size_t k_per_task = 16384;
-
 /// Sets of numbers that many threads join. The root of a set is its least number, whatever the order of the
 /// joins.
 class DisjointSets {

@@ -97,8 +97,8 @@ class VertexMaterials {
 };
 
 /// `material`: of all vertices, except for what their `colors` determine.
-std::string mesh_text(const std::string& comment, Triangles triangles, const std::string& material,
-                      const VertexMaterials* colors = nullptr) {
+std::string mesh2_text(const std::string& comment, Triangles triangles, const std::string& material,
+                       const VertexMaterials* colors = nullptr) {
     if (triangles.indices.empty()) return "";
     keep_equal_normals(triangles);
     Statement statement(comment);
@@ -127,12 +127,12 @@ std::string colored_mesh_text(const ExportedScene& scene, std::size_t object, co
     const VertexMaterials colors(scene, object, triangles.colors, files);
     Triangles outline;
     if (!triangles.normals.empty()) outline = split_off_outline(triangles, scene.observer);
-    std::string text = colors.declarations() + mesh_text(name, std::move(triangles), "", &colors);
+    std::string text = colors.declarations() + mesh2_text(name, std::move(triangles), "", &colors);
     if (outline.indices.empty()) return text;
     files.approximate("near the outline of an object, the colours at its vertices may be their mean");
     const Material mean = material_at_vertex(scene, object, mean_of(outline.colors), files);
-    return text + mesh_text(name + ", its triangles at the outline, as the observer sees them",
-                            std::move(outline), mean.front + mean.turned, &colors);
+    return text + mesh2_text(name + ", its triangles at the outline, as the observer sees them",
+                             std::move(outline), mean.front + mean.turned, &colors);
 }
 
 }  // namespace
@@ -152,12 +152,12 @@ std::string mesh_text(const ExportedScene& scene, std::size_t index, FileSink& f
         mesh, has_faces ? ConstVec3Span{} : mesh.normals[mesh.normals_of[object.shading]], is_textured);
     if (!triangles.colors.empty()) return colored_mesh_text(scene, index, name, std::move(triangles), files);
     const Material material = material_of(scene, index, files);
-    if (has_faces) return mesh_text(name, std::move(triangles), material.front);
-    if (mesh.closed) return mesh_text(name, std::move(triangles), material.front + material.turned);
+    if (has_faces) return mesh2_text(name, std::move(triangles), material.front);
+    if (mesh.closed) return mesh2_text(name, std::move(triangles), material.front + material.turned);
     Triangles outline = split_off_outline(triangles, scene.observer);
-    return mesh_text(name, std::move(triangles), material.front) +
-           mesh_text(name + ", its triangles at the outline, as the observer sees them", std::move(outline),
-                     material.front + material.turned);
+    return mesh2_text(name, std::move(triangles), material.front) +
+           mesh2_text(name + ", its triangles at the outline, as the observer sees them", std::move(outline),
+                      material.front + material.turned);
 }
 
 }  // namespace candela::povray_target
