@@ -75,6 +75,11 @@ KernelError::KernelError(SourceLocation place, const std::string& message, std::
 
 KernelError::~KernelError() = default;
 
+void KernelError::report_in(Diagnostics& diagnostics) const {
+    diagnostics.remember_source(place_.file, source_);
+    diagnostics.error(place_, message_);
+}
+
 Registry::Registry(std::vector<fs::path> search_path, PluginTrust trust, std::size_t named_folders,
                    ReplacementHandler on_replaced, KernelCompiler compile_kernel)
     : search_path_(std::move(search_path)),

@@ -46,10 +46,8 @@ class CANDELA_EXPORT KernelError : public Error {
   public:
     KernelError(SourceLocation place, const std::string& message, std::string source);
     ~KernelError() override;
-    const SourceLocation& place() const noexcept { return place_; }
-    /// what() without the place.
-    const std::string& message() const noexcept { return message_; }
-    const std::string& source() const noexcept { return source_; }
+    /// Adds it as an error at its place, with the source's text.
+    void report_in(Diagnostics& diagnostics) const;
 
   private:
     SourceLocation place_;
@@ -68,6 +66,11 @@ using KernelCompiler = std::function<CompiledKernel(const std::filesystem::path&
 
 /// Whether the name of a model is that of a kernel file.
 constexpr bool is_kernel_file(std::string_view name) { return name.ends_with(".kernel"); }
+
+/// Whether kernel files may stand for plugins of this kind.
+constexpr bool has_kernels(PluginKind kind) {
+    return kind == PluginKind::light || kind == PluginKind::reflection || kind == PluginKind::shading;
+}
 
 /// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins next to the core.
 CANDELA_EXPORT std::vector<std::filesystem::path> plugin_search_path(

@@ -83,9 +83,7 @@ const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, c
     try {
         registry_.require(kind, name);
     } catch (const KernelError& problem) {
-        if (!reported_kernels_.insert(name).second) return nullptr;
-        diagnostics_.remember_source(problem.place().file, problem.source());
-        diagnostics_.error(problem.place(), problem.message());
+        if (reported_kernels_.insert(name).second) problem.report_in(diagnostics_);
     } catch (const Error& problem) {
         diagnostics_.error(place, problem.what(), "", problem.help());
     }

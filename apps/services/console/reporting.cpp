@@ -124,8 +124,7 @@ int run_and_report(const std::function<int()>& work) {
         return code;
     } catch (const candela::KernelError& problem) {
         candela::Diagnostics diagnostics;
-        diagnostics.remember_source(problem.place().file, problem.source());
-        diagnostics.error(problem.place(), problem.message());
+        problem.report_in(diagnostics);
         report(diagnostics);
         return static_cast<int>(exit_code_of(problem.category()));
     } catch (const std::exception&) {

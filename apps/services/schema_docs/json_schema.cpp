@@ -189,6 +189,7 @@ class SchemaWriter {
                  {"type", "object"},
                  {"properties", std::move(properties)}};
         put_unless_empty(one, "required", required_in(table.parameters));
+        // A kernel file's parameters are unknown here: the cases for installed plugins close the table.
         const bool takes_kernels_parameters = std::ranges::any_of(table.plugins, [](const PluginKey& key) {
             return key.parameters_in == "" && has_kernels(key.kind);
         });
@@ -221,12 +222,6 @@ class SchemaWriter {
 
     static const Parameter& parameter_in(const TableSchema& table, const std::string& name) {
         return *std::ranges::find(table.parameters, name, &Parameter::name);
-    }
-
-    /// Whether a kernel file may stand for a plugin. Its parameters are unknown here, so that tables of
-    /// parameters are closed by the cases for installed plugins only.
-    static bool has_kernels(PluginKind kind) {
-        return kind == PluginKind::light || kind == PluginKind::reflection || kind == PluginKind::shading;
     }
 
     /// The schema of an installed plugin's name, or a kernel file's.
