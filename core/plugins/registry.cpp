@@ -66,6 +66,13 @@ std::vector<fs::path> plugin_search_path(std::span<const fs::path> first) {
     return directories;
 }
 
+bool is_plugin_name(std::string_view name) {
+    const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
+    const auto is_allowed = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
+    return !name.empty() && is_letter(name.front()) && name.back() != '-' && name.find("--") == name.npos &&
+           std::ranges::all_of(name, is_allowed);
+}
+
 KernelError::KernelError(SourceLocation place, const std::string& message, std::string source)
     : Error(ErrorCategory::invalid_scene,
             fmt::format("{}:{}:{}: {}", place.file, place.line, place.column, message)),

@@ -64,6 +64,10 @@ struct CompiledKernel {
 /// Makes a plugin of a kernel file. Throws KernelError and Error. Any thread.
 using KernelCompiler = std::function<CompiledKernel(const std::filesystem::path& file)>;
 
+/// Whether a plugin, and its project or its kernel file, can have this name: lower-case letters, digits and
+/// single hyphens, starting with a letter.
+CANDELA_EXPORT bool is_plugin_name(std::string_view name);
+
 /// Whether the name of a model is that of a kernel file.
 constexpr bool is_kernel_file(std::string_view name) { return name.ends_with(".kernel"); }
 

@@ -13,6 +13,7 @@
 #include "tokens.h"
 
 import candela.api;
+import candela.plugins;
 import candela.util;
 
 namespace candela::kernel_language {
@@ -187,14 +188,10 @@ class ModelReader {
 
 std::string model_name(const std::filesystem::path& file) {
     const std::string name = file.stem().string();
-    const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
-    const bool is_good = !name.empty() && is_letter(name.front()) && std::ranges::all_of(name, [&](char c) {
-        return is_letter(c) || (c >= '0' && c <= '9') || c == '-';
-    });
-    if (!is_good || file.extension() != ".kernel") {
+    if (!is_plugin_name(name) || file.extension() != ".kernel") {
         throw std::invalid_argument(
             fmt::format("'{}' is not a valid name of a model's file; expected lower-case letters, digits and "
-                        "hyphens, starting with a letter, and '.kernel'",
+                        "single hyphens, starting with a letter, and '.kernel'",
                         file.filename().string()));
     }
     return name;

@@ -171,7 +171,8 @@ TEST_CASE("the kind of a model follows from its functions") {
 
 TEST_CASE("a model's name is its file's, in lower case") {
     CHECK(kl::model_name("a/half-lambert.kernel") == "half-lambert");
-    for (const char* const name : {"Phong.kernel", "2.kernel", "phong.txt", ".kernel", "a b.kernel"})
+    for (const char* const name :
+         {"Phong.kernel", "2.kernel", "phong.txt", ".kernel", "a b.kernel", "a--b.kernel", "a-.kernel"})
         CHECK_THROWS_AS(kl::model_name(name), std::invalid_argument);
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <regex>
 #include <string_view>
@@ -75,23 +76,16 @@ std::string test_of(const ProjectNames& names) {
 }  // namespace
 
 ProjectNames project_names(const std::string& name) {
-    const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
-    const auto is_allowed = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
-    bool good = !name.empty() && is_letter(name.front()) && name.back() != '-' &&
-                name.find("--") == std::string::npos;
-    for (const char c : name) good = good && is_allowed(c);
-    if (!good) {
+    if (!candela::is_plugin_name(name)) {
         throw Error(ErrorCategory::bad_request,
                     fmt::format("'{}' is not a valid plugin name; expected lower-case letters, digits and "
                                 "single hyphens, starting with a letter",
                                 name));
     }
-    ProjectNames names{.name = name, .ident = {}, .type = type_of(name, '-'), .title = {}};
-    for (const char c : name) {
-        names.ident += c == '-' ? '_' : c;
-        names.title +=
-            c == '-' ? ' ' : (names.title.empty() && is_letter(c) ? static_cast<char>(c - 'a' + 'A') : c);
-    }
+    ProjectNames names{.name = name, .ident = name, .type = type_of(name, '-'), .title = name};
+    std::ranges::replace(names.ident, '-', '_');
+    std::ranges::replace(names.title, '-', ' ');
+    names.title.front() = static_cast<char>(names.title.front() - 'a' + 'A');
     return names;
 }
 

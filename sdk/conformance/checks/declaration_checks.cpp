@@ -74,10 +74,7 @@ std::string wrong_with(Takes takes, const std::string& value) {
                        : fmt::format("'{}'; its value is six numbers, low x y z, high x y z", value);
         case Takes::names: {
             const std::vector<std::string> names = names_in(value);
-            const bool are_names = !names.empty() && std::ranges::all_of(names, [](const std::string& name) {
-                return !name.empty() &&
-                       name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789-") == std::string::npos;
-            });
+            const bool are_names = !names.empty() && std::ranges::all_of(names, candela::is_plugin_name);
             return are_names ? "" : fmt::format(R"('{}'; it takes names: "lambert, phong")", value);
         }
         case Takes::a_condition:

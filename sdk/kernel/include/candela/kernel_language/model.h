@@ -72,8 +72,7 @@ struct ModelDeclaration {
     KernelReads reads{};
 };
 
-/// The name of a file's model: its stem, which consists of lower-case letters, digits and hyphens. Throws
-/// std::invalid_argument.
+/// The name of a file's model: its stem. Throws std::invalid_argument if that is not a plugin's name.
 std::string model_name(const std::filesystem::path& file);
 
 /// The model that a checked kernel declares. Throws Problem at the comment that cannot be understood.
