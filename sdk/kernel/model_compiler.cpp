@@ -1,11 +1,8 @@
 #include "candela/kernel_language/model_compiler.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdint>
-#include <cstdlib>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -13,6 +10,7 @@
 #include <vector>
 
 #include "candela/kernel_language/compiler.h"
+#include "candela/kernel_language/kernel_cache.h"
 #include "candela/kernel_language/language.h"
 #include "candela/kernel_language/model.h"
 #include "process/process.h"
@@ -28,20 +26,6 @@ namespace candela::kernel_language {
 
 namespace {
 
-/// FNV-1a (Fowler, Noll, Vo 1991), 64 bits. That two texts are the same is not concluded from it alone.
-class Hash {
-  public:
-    Hash& add(std::string_view text) {
-        for (const char c : text) value_ = (value_ ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-        value_ = (value_ ^ 0xff) * 0x100000001b3;
-        return *this;
-    }
-    std::string text() const { return fmt::format("{:016x}", value_); }
-
-  private:
-    std::uint64_t value_ = 0xcbf29ce484222325;
-};
-
 std::vector<std::string> options() {
     return {"-O3",
             "-fPIC",
@@ -56,16 +40,6 @@ std::vector<std::string> options() {
 #endif
             "-w",
             "-DCANDELA_PLUGIN_VERSION=\"0\""};
-}
-
-/// All headers that a plugin of a model includes.
-void add_headers(const fs::path& include, Hash& hash) {
-    for (const char* const folder : {"candela", "candela/kernel", "candela/plugin"}) {
-        std::vector<std::string> names = names_in(include / folder).value_or(std::vector<std::string>());
-        std::ranges::sort(names);
-        for (const std::string& name : names)
-            if (const auto text = read_text_file(include / folder / name)) hash.add(name).add(*text);
-    }
 }
 
 [[noreturn]] void refuse(const Problem& problem, const std::string& text) {
@@ -153,23 +127,12 @@ void build(const CheckedModel& checked, const fs::path& compiler, const fs::path
 
 bool is_complete(const fs::path& folder, const CheckedModel& checked, const std::string& library) {
     std::error_code problem;
-    return fs::exists(folder / (library + ".json"), problem) &&
+    return is_own_folder(folder) && fs::exists(folder / (library + ".json"), problem) &&
            fs::exists(folder / (library + ".so"), problem) &&
            read_text_file(folder / (checked.model.name + ".kernel")) == checked.text;
 }
 
 }  // namespace
-
-fs::path kernel_cache() {
-    const auto variable = [](const char* name) {
-        const char* const value = std::getenv(name);
-        return fs::path(value != nullptr ? value : "");
-    };
-    if (const fs::path cache = variable("XDG_CACHE_HOME"); cache.is_absolute())
-        return cache / "candela/kernels";
-    if (const fs::path home = variable("HOME"); home.is_absolute()) return home / ".cache/candela/kernels";
-    return fs::temp_directory_path() / fmt::format("candela-kernels-{}", ::geteuid());
-}
 
 CompiledKernel compile_model(const Source& kernel, std::string_view name, const fs::path& cache) {
     const CheckedModel checked = check(kernel, name);
@@ -182,14 +145,14 @@ CompiledKernel compile_model(const Source& kernel, std::string_view name, const 
     if (headers.empty())
         throw Error(ErrorCategory::failure,
                     "a kernel needs Candela's headers, which are not installed (package candela-dev)");
-    Hash hash;
+    ContentHash hash;
     hash.add(checked.text)
         .add(checked.code)
         .add(plugin_source(checked.model, ""))
         .add(host_abi())
-        .add(compiler->string());
+        .add(compiler->string())
+        .add_headers(headers);
     for (const std::string& option : options()) hash.add(option);
-    add_headers(headers, hash);
     const fs::path folder = cache / hash.text();
     const CompiledKernel compiled{checked.model.kind, checked.model.name, folder};
     if (is_complete(folder, checked, library)) return compiled;
@@ -198,11 +161,8 @@ CompiledKernel compile_model(const Source& kernel, std::string_view name, const 
     const TemporaryFolder temporary("new-", cache);
     const fs::path made = temporary.path() / "plugin";
     fs::create_directory(made);
-    fs::permissions(made, fs::perms::owner_all);
     build(checked, *compiler, headers, made, library);
-    // Appears complete or not at all; another process may have been faster.
-    std::error_code problem;
-    fs::rename(made, folder, problem);
+    const std::error_code problem = keep(made, folder);
     if (!is_complete(folder, checked, library))
         throw Error(ErrorCategory::failure, fmt::format("the compiled kernel cannot be moved to '{}': {}",
                                                         folder.string(), problem.message()));

@@ -1,4 +1,5 @@
 // Compiles models at run time.
+#include "candela/kernel_language/kernel_cache.h"
 #include "candela/kernel_language/model_compiler.h"
 
 #include "binding.h"

@@ -1,64 +1,32 @@
 #include "inspect/kernel_run.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <functional>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "candela/kernel_language/compiler.h"
+#include "candela/kernel_language/kernel_cache.h"
 #include "process/process.h"
 
 import candela.util;
 
 namespace fs = std::filesystem;
 namespace kl = candela::kernel_language;
-using candela::Error;
-using candela::ErrorCategory;
 using candela::PluginDescriptor;
 
 namespace {
 
-std::string text_of_file(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-void write_text(const fs::path& file, const std::string& text) {
-    std::ofstream stream(file, std::ios::binary);
-    stream << text;
-    stream.close();
-    if (!stream) throw Error(ErrorCategory::failure, fmt::format("cannot write '{}'", file.string()));
-}
-
-/// Hashes all headers that the programs are compiled with, but not the modules, which are installed in a
-/// folder next to them.
-std::size_t hash_of_headers(const fs::path& include) {
-    const fs::path folder = include / "candela/kernel";
-    std::vector<std::string> names = candela::names_in(folder).value_or(std::vector<std::string>());
-    std::ranges::sort(names);
-    std::string all;
-    for (const std::string& name : names) {
-        std::error_code problem;
-        const fs::path file = folder / name;
-        if (fs::is_regular_file(file, problem)) all += name + text_of_file(file);
-    }
-    return std::hash<std::string>()(all);
-}
-
-/// Whether only this user can have written to a folder, whose contents will be run.
-bool is_own_folder(const fs::path& folder) {
-    struct stat status{};
-    return ::lstat(folder.c_str(), &status) == 0 && S_ISDIR(status.st_mode) && status.st_uid == ::geteuid() &&
-           (status.st_mode & (S_IWGRP | S_IWOTH)) == 0;
+/// In a folder of this process.
+void write_text(const fs::path& file, std::string_view text) {
+    candela::OutputFile output(file);
+    output.write(text);
+    output.finish(candela::Durability::fast);
 }
 
 }  // namespace
@@ -78,24 +46,23 @@ void KernelRunner::prepare() {
             "candela-dev)";
         return;
     }
-    const std::string prelude =
-        program_.traced_prelude(text_of_file(include / "candela/kernel/prelude.kernel"));
+    const std::string prelude = program_.traced_prelude(
+        candela::read_text_file(include / "candela/kernel/prelude.kernel").value_or(""));
     const std::string text =
-        fmt::format("// with headers {:016x}\n", hash_of_headers(include)) + program_.source();
+        fmt::format("// with headers {}\n", kl::ContentHash().add_headers(include).text()) +
+        program_.source();
     const fs::path kept_program =
-        kept_.empty() ? fs::path() : kept_ / fmt::format("{:016x}", std::hash<std::string>()(prelude + text));
-    const bool is_there = !kept_.empty() && is_own_folder(kept_program) &&
-                          text_of_file(kept_program / "kernels.cpp") == text &&
-                          text_of_file(kept_program / "candela/kernel/prelude.kernel") == prelude;
+        kept_.empty() ? fs::path() : kept_ / kl::ContentHash().add(prelude).add(text).text();
+    const bool is_there = !kept_.empty() && kl::is_own_folder(kept_program) &&
+                          candela::read_text_file(kept_program / "kernels.cpp") == text &&
+                          candela::read_text_file(kept_program / "candela/kernel/prelude.kernel") == prelude;
     const fs::path made = folder_.path() / "program";
     if (!is_there) {
         fs::create_directories(made / "candela/kernel");
-        fs::permissions(made, fs::perms::owner_all);  // see is_own_folder()
         write_text(made / "candela/kernel/prelude.kernel", prelude);
         write_text(made / "kernels.cpp", text);
         if (!compile(made)) return;
-        // Appears complete or not at all; another process may have been faster.
-        if (!kept_.empty()) fs::rename(made, kept_program, problem);
+        if (!kept_.empty()) kl::keep(made, kept_program);
     }
     executable_ = (fs::exists(made / "kernels", problem) ? made : kept_program) / "kernels";
 }

@@ -10,10 +10,6 @@ import candela.plugins;
 
 namespace candela::kernel_language {
 
-/// The user's folder for compiled kernels: candela/kernels in $XDG_CACHE_HOME, or in ~/.cache; in the
-/// temporary folder for a user without a home.
-std::filesystem::path kernel_cache();
-
 /// Compiles the text of a model, unless a folder below `cache` has it already: `name` is the model's, and
 /// `kernel.name` what messages call the file. The compiler receives code regenerated from what was
 /// understood, which can only compute, ends, and reaches no memory except its arguments. The result is as
