@@ -4,8 +4,8 @@
 #include <numbers>
 #include <span>
 
-#include "console/diagnostics_text.h"
 #include "support/command.h"
+#include "support/compiled.h"
 #include "support/plugins.h"
 #include "support/samples.h"
 
@@ -116,18 +116,13 @@ void check_better_than_phong(const Shape& shape, SurfaceNormal exact_normal, dou
 }
 
 std::vector<float> rendered(const fs::path& file, const char* shading) {
-    candela::Diagnostics diagnostics;
     candela::SceneRequest request;
     request.files = {file};
     request.shading = {shading};
-    const auto scene = candela::read_scene(request, test_registry(), diagnostics);
-    INFO(diagnostics_text(diagnostics, false));
-    REQUIRE(scene.has_value());
-    const auto compiled = candela::build(*scene, test_registry(), diagnostics);
-    REQUIRE(compiled.has_value());
-    candela::Film film(scene->image.width, scene->image.height, candela::PixelType::real,
+    const candela::RenderScene scene = compiled(request).scene;
+    candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real,
                        candela::ColorEncoding::none);
-    CHECK(candela::render(*compiled, film, {.threads = 2}).pixels_shaded > 1000);
+    CHECK(candela::render(scene, film, {.threads = 2}).pixels_shaded > 1000);
     return {film.view().reals.begin(), film.view().reals.end()};
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "support/plugins.h"
+#include "support/text.h"
 
 class Decoded final : public candela::ImageSink {
   public:
@@ -33,10 +34,5 @@ inline Decoded read_by(const char* plugin, const std::filesystem::path& file) {
 
 /// The plugin's error message for a file; empty if it reads the file.
 inline std::string problem_of(const char* plugin, const std::filesystem::path& file) {
-    try {
-        static_cast<void>(read_by(plugin, file));
-        return "";
-    } catch (const std::runtime_error& problem) {
-        return problem.what();
-    }
+    return message_of<std::runtime_error>([&] { read_by(plugin, file); });
 }

@@ -3,6 +3,7 @@
 
 #include <catch2/catch_test_macros.hpp>
 #include <cstddef>
+#include <exception>
 #include <ostream>
 #include <sstream>
 #include <string>
@@ -29,6 +30,17 @@ inline std::size_t count_of(const std::string& text, const std::string& part) {
     std::size_t count = 0;
     for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++count;
     return count;
+}
+
+/// The message of the exception that an action throws; empty if it throws none.
+template <class Exception = std::exception, class Action>
+std::string message_of(const Action& action) {
+    try {
+        action();
+    } catch (const Exception& problem) {
+        return problem.what();
+    }
+    return "";
 }
 
 /// The text with the first `from` replaced, which it must contain.

@@ -51,14 +51,11 @@ fs::path installed(int version, const std::string& abi, const std::string& folde
 std::string refusal(const fs::path& directory) {
     ::unsetenv(k_progress);
     candela::Registry registry({directory});
-    try {
+    return message_of<candela::Error>([&] {
         registry.create<candela::ReflectionModel>(
             "other-interface", registry.parameters(candela::PluginKind::reflection, "other-interface"),
             candela::ColorEncoding::none);
-    } catch (const candela::Error& error) {
-        return error.what();
-    }
-    return "";
+    });
 }
 
 /// How far the host got: "" not loaded, "loaded", "made" an instance.

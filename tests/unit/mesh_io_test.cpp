@@ -16,6 +16,7 @@
 #include "mesh_io/ply_header.h"
 #include "mesh_io/readers.h"
 #include "support/gltf_file.h"
+#include "support/text.h"
 
 namespace gltf = mesh_io::gltf;
 
@@ -38,12 +39,7 @@ Found chunks_of(std::string_view file) {
 }
 
 std::string refusal_of(const std::string& file) {
-    try {
-        chunks_of(file);
-        return "";
-    } catch (const mesh_io::BadFile& problem) {
-        return problem.what();
-    }
+    return message_of<mesh_io::BadFile>([&] { chunks_of(file); });
 }
 
 }  // namespace

@@ -91,12 +91,7 @@ GivenShape tetrahedron() {
 }
 
 std::string complaint_about(const Shape& shape) {
-    try {
-        build(shape);
-    } catch (const std::exception& problem) {
-        return problem.what();
-    }
-    return "";
+    return message_of([&] { build(shape); });
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "support/samples.h"
+#include "support/text.h"
 
 using candela::Parameter;
 using candela::ParamSet;
@@ -104,12 +105,7 @@ TEST_CASE("an invalid manifest is refused with a reason") {
 TEST_CASE("a plugin's author and licence are short, and consist of visible characters") {
     candela::Manifest manifest = sample_manifest();
     const auto is_refused = [&] {
-        try {
-            static_cast<void>(candela::manifest_from_json(candela::to_json(manifest)));
-            return std::string();
-        } catch (const candela::Error& problem) {
-            return std::string(problem.what());
-        }
+        return message_of<candela::Error>([&] { candela::manifest_from_json(candela::to_json(manifest)); });
     };
     manifest.author = std::string(200, 'a');
     CHECK(is_refused().empty());

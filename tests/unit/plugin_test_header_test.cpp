@@ -1,11 +1,11 @@
 // candela/plugin_test.h, with which tests of plugins are written.
 #include "candela/plugin_test.h"
+#include "support/text.h"
 
 #include <catch2/catch_test_macros.hpp>
 #include <catch2/matchers/catch_matchers.hpp>
 #include <catch2/matchers/catch_matchers_floating_point.hpp>
 #include <catch2/matchers/catch_matchers_string.hpp>
-#include <exception>
 
 using Catch::Matchers::ContainsSubstring;
 
@@ -23,21 +23,13 @@ TEST_CASE("a plugin's test gets an instance as from a host: with defaults, and v
 }
 
 TEST_CASE("a plugin's test gets the same message about invalid settings as a user") {
-    const auto message = [](auto make) -> std::string {
-        try {
-            make();
-        } catch (const std::exception& problem) {
-            return problem.what();
-        }
-        return "";
-    };
-    CHECK_THAT(message([] { candela::sdk::make<candela::Light>(CANDELA_TEST_PLUGINS, "point"); }),
+    CHECK_THAT(message_of([] { candela::sdk::make<candela::Light>(CANDELA_TEST_PLUGINS, "point"); }),
                ContainsSubstring("position"));
-    CHECK_THAT(message([] {
+    CHECK_THAT(message_of([] {
                    candela::sdk::make<candela::Light>(CANDELA_TEST_PLUGINS, "ambient", {{"intensity", -1.0}});
                }),
                ContainsSubstring("at least 0"));
-    CHECK_THAT(message([] { candela::sdk::make<candela::Shape>(CANDELA_TEST_PLUGINS, "point"); }),
+    CHECK_THAT(message_of([] { candela::sdk::make<candela::Shape>(CANDELA_TEST_PLUGINS, "point"); }),
                ContainsSubstring("no shape plugin is called 'point'"));
 }
 

@@ -111,13 +111,8 @@ TEST_CASE("shape/mesh: normals from the file take precedence over those of the s
 
 TEST_CASE("shape/mesh reads the formats that it names, by extension, and no others") {
     const auto directory = scratch_directory();
-    const auto validation_error = [&](const char* name, const std::string& content) -> std::string {
-        try {
-            mesh_of(write_file(directory / name, content));
-        } catch (const std::exception& problem) {
-            return problem.what();
-        }
-        return "";
+    const auto validation_error = [&](const char* name, const std::string& content) {
+        return message_of([&] { mesh_of(write_file(directory / name, content)); });
     };
     const std::string triangle = std::string(k_triangle) + "f 1 2 3\n";
     CHECK(validation_error("a.OBJ", triangle).empty());

@@ -11,6 +11,7 @@
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/samples.h"
+#include "support/text.h"
 
 using candela::Mesh;
 using candela::Shape;
@@ -29,12 +30,7 @@ candela::PlacedShape placed(const std::string& text, const std::string& part = "
 }
 
 std::string refusal_of(const std::string& text, const char* name = "a.obj") {
-    try {
-        placed(text, "", name);
-    } catch (const std::exception& problem) {
-        return problem.what();
-    }
-    return "";
+    return message_of([&] { placed(text, "", name); });
 }
 
 }  // namespace

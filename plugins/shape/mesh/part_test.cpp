@@ -24,12 +24,7 @@ Mesh part_of(const std::string& name, const std::string& text, const std::string
 }
 
 std::string refusal_of(const std::string& name, const std::string& text, const std::string& part) {
-    try {
-        part_of(name, text, part);
-    } catch (const std::exception& problem) {
-        return problem.what();
-    }
-    return "";
+    return message_of([&] { part_of(name, text, part); });
 }
 
 }  // namespace

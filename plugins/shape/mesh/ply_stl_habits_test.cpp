@@ -15,6 +15,7 @@
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/samples.h"
+#include "support/text.h"
 
 using candela::Shape;
 using candela::Vec3;
@@ -30,12 +31,7 @@ candela::PlacedShape placed(const std::string& text, const char* name = "a.ply")
 }
 
 std::string refusal_of(const std::string& text, const char* name = "a.ply") {
-    try {
-        placed(text, name);
-    } catch (const std::exception& problem) {
-        return problem.what();
-    }
-    return "";
+    return message_of([&] { placed(text, name); });
 }
 
 std::string warnings_of(const candela::PlacedShape& shape) {
