@@ -2,11 +2,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "console/diagnostics_text.h"
 #include "support/command.h"
+#include "support/compiled.h"
 #include "support/microfacets.h"
 #include "support/plugins.h"
 #include "support/samples.h"
+#include "support/scene_tables.h"
 
 using candela::ReflectionModel;
 
@@ -77,25 +78,15 @@ TEST_CASE(
     "the grain runs along u on a rendered ball: the highlight is long across it, and turns with the "
     "roughnesses") {
     const auto spread = [](const std::string& u, const std::string& v) {
-        const auto file =
-            write_file(scratch_directory() / (u + v + ".toml"),
-                       "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
-                       "projection = \"orthographic\"\nheight = 2.2\n[image]\nwidth = 96\nheight = 96\n"
-                       "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"ward\"\n"
-                       "[[light]]\ntype = \"directional\"\ndirection = [0, 0, -1]\n"
-                       "[[object]]\ntype = \"sphere\"\nradius = 1\nmaterial = { kd = 0, ka = 0, ks = 1, "
-                       "roughness_u = " +
-                           u + ", roughness_v = " + v + " }\n");
-        candela::Diagnostics diagnostics;
-        candela::SceneRequest request;
-        request.files = {file};
-        const auto scene = candela::read_scene(request, test_registry(), diagnostics);
-        INFO(diagnostics_text(diagnostics, false));
-        REQUIRE(scene.has_value());
-        const auto compiled = candela::build(*scene, test_registry(), diagnostics);
-        REQUIRE(compiled.has_value());
+        const Compiled ball =
+            compiled(k_start + "projection = \"orthographic\"\nheight = 2.2\n" + image_table(96, 96) +
+                     "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"ward\"\n"
+                     "[[light]]\ntype = \"directional\"\ndirection = [0, 0, -1]\n"
+                     "[[object]]\ntype = \"sphere\"\nradius = 1\nmaterial = { kd = 0, ka = 0, ks = 1, "
+                     "roughness_u = " +
+                     u + ", roughness_v = " + v + " }\n");
         candela::Film film(96, 96, candela::PixelType::real, candela::ColorEncoding::none);
-        candela::render(*compiled, film, {.threads = 1});
+        candela::render(ball.scene, film, {.threads = 1});
         // Second moments of brightness about the centre: across (x) and up (y).
         double x2 = 0, y2 = 0;
         for (int row = 0; row < 96; ++row) {

@@ -29,13 +29,9 @@ keys = [[0.0, 9.0], [0.5, 20.0]]
 )";
 }
 
-CommandSetup in(const Folder& directory) { return {.input = "", .environment = {}, .directory = directory}; }
+CommandSetup in(const Folder& directory) { return {.directory = directory}; }
 
-Folder with_scene() {
-    const Folder directory;
-    directory.write("scene.toml", scene_text());
-    return directory;
-}
+Folder with_scene() { return {{"scene.toml", scene_text()}}; }
 
 CommandResult animate(const Folder& directory, const std::vector<std::string>& more = {}) {
     return directory.run("animate scene.toml", more);
@@ -156,9 +152,7 @@ TEST_CASE("messages explain patterns, ranges and scenes that yield no frames") {
         {{}, "needs a scene file"},
     };
     for (const auto& [words, part] : mistakes) {
-        std::vector<std::string> all = {"animate"};
-        all.insert(all.end(), words.begin(), words.end());
-        expect(directory.run_words(all), 2, {part});
+        expect(directory.run("animate", words), 2, {part});
     }
     CHECK(names(directory) == std::vector<std::string>{"scene.toml", "still.toml"});
     expect(directory.run("render scene.toml --frame 6"), 2, {"there is no frame 6"});
@@ -230,8 +224,7 @@ std::string with_tracks(int count, bool are_all_of_one) {
 }
 
 CommandResult checked_within(rlim_t seconds, const std::string& scene) {
-    const Folder directory;
-    directory.write("scene.toml", scene);
+    const Folder directory({{"scene.toml", scene}});
     CommandSetup setup = in(directory);
     setup.prepare = [seconds] {
         const rlimit time{seconds, seconds};

@@ -6,18 +6,14 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-std::string scene() {
-    return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight "
-           "= 16\n"
-           "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n[[object]]\nname = \"box\"\ntype = \"cube\"\n"
-           "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
-}
+std::string scene() { return k_start + image_table(16, 16) + k_light + k_cube + k_models; }
 
 constexpr const char* k_png_signature = "\x89PNG\r\n\x1a\n";
 
@@ -53,9 +49,8 @@ TEST_CASE("unknown options and wrong values are usage errors with suggestions") 
     CHECK(holds(run_candela({"list", "lightz"}).err, "did you mean 'light'?"));
     expect(run_candela({"describe"}), 2);
     expect(run_candela({"check"}), 2);
-    expect(run_candela({"list"},
-                       {.input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "mmx"}}, .directory = {}}),
-           2, {"baseline, avx2 or avx512"});
+    expect(run_candela({"list"}, {.environment = {{"CANDELA_INSTRUCTION_SET", "mmx"}}}), 2,
+           {"baseline, avx2 or avx512"});
 }
 
 TEST_CASE("without arguments, render makes candela.png of the default scene") {
@@ -114,22 +109,17 @@ TEST_CASE("check reports on standard output that a valid scene is valid") {
 
 TEST_CASE("check --print prints the scene as one file that gives the same scene") {
     const Folder directory;
-    write_file(directory / "parts" / "lights.toml",
-               "[[light]]\nname = \"lamp\"\ntype = \"point\"\nposition = [1, 1, 3]\n");
+    directory.write("parts/lights.toml", k_light + "name = \"lamp\"\n");
     directory.write("mesh.obj", "v 0 2 0\nv 1 2 0\nv 0 3 0\nf 1 2 3\n");
-    const std::string file = directory
-                                 .write("scene.toml",
-                                        "include = [\"parts/lights.toml\"]\nversion = "
-                                        "1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
-                                        "0]\n[image]\nwidth = 32\nheight = 32\n[[object]]\ntype = "
-                                        "\"cube\"\n[[object]]\ntype = \"mesh\"\nfile = "
-                                        "\"mesh.obj\"\n")
-                                 .string();
-    const std::vector<std::string> more = {"--defaults", "--set", "light.lamp.intensity=7", "--reflection",
-                                           "lambert"};
-    const auto with_more = [&](std::vector<std::string> words) {
-        words.insert(words.end(), more.begin(), more.end());
-        return run_candela(words);
+    const std::string file =
+        directory
+            .write("scene.toml", "include = [\"parts/lights.toml\"]\n" + k_start + image_table(32, 32) +
+                                     "[[object]]\ntype = \"cube\"\n"
+                                     "[[object]]\ntype = \"mesh\"\nfile = \"mesh.obj\"\n")
+            .string();
+    const auto with_more = [&](const Words& words) {
+        return run_candela(
+            joined(words, {"--defaults", "--set", "light.lamp.intensity=7", "--reflection", "lambert"}));
     };
     const CommandResult printed = succeeded(with_more({"check", file, "--print"}));
     CHECK(printed.out.starts_with("version = 1\n"));
@@ -181,10 +171,9 @@ TEST_CASE(
 
 TEST_CASE("only terminals get colour, and none with NO_COLOR") {
     CHECK_FALSE(holds(run_candela({"redner"}).err, "\x1b["));
-    const CommandSetup colored{.input = "", .environment = {{"TERM", "xterm"}}, .directory = {}};
+    const CommandSetup colored{.environment = {{"TERM", "xterm"}}};
     CHECK(holds(run_candela_on_terminal({"redner"}, "", colored).out, "\x1b["));
-    const CommandSetup plain{
-        .input = "", .environment = {{"TERM", "xterm"}, {"NO_COLOR", "1"}}, .directory = {}};
+    const CommandSetup plain{.environment = {{"TERM", "xterm"}, {"NO_COLOR", "1"}}};
     CHECK_FALSE(holds(run_candela_on_terminal({"redner"}, "", plain).out, "\x1b["));
 }
 
@@ -221,8 +210,7 @@ TEST_CASE("list and describe show the contents of manifests") {
 }
 
 TEST_CASE("refused plugins are warnings on standard error, and the others still work") {
-    const Folder directory;
-    directory.write("reflection-text.so", "no library");
+    const Folder directory({{"reflection-text.so", "no library"}});
     const CommandResult list = expect(run_candela({"list", "--plugin-dir", directory.path().string()}), 0,
                                       {"reflection-text.so' is refused: its manifest"});
     CHECK(holds(list.out, "blinn-phong"));

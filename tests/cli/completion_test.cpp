@@ -30,23 +30,23 @@ std::set<std::string> completions(const std::vector<std::string>& words, const f
     return found;
 }
 
-using Words = std::set<std::string>;
+using Offered = std::set<std::string>;
 
 }  // namespace
 
 TEST_CASE("completion: verbs, options, and names of plugins") {
-    CHECK(completions({"re"}) == Words{"render"});
-    CHECK(completions({"help", "sch"}) == Words{"schema"});
-    CHECK(completions({"plugin", ""}) == Words{"new", "test", "doctor"});
-    CHECK(completions({"render", "--sh"}) == Words{"--shading"});
-    CHECK(completions({"render", "--reflection", "oren"}) == Words{"oren-nayar"});
-    CHECK(completions({"render", "--reflection=oren"}) == Words{"--reflection=oren-nayar"});
-    CHECK(completions({"compare", "--reflection", "phong,gg"}) == Words{"phong,ggx"});
-    CHECK(completions({"describe", "shape/to"}) == Words{"shape/torus"});
-    CHECK(completions({"list", "refl"}) == Words{"reflection"});
-    CHECK(completions({"plot", "ggx:roughness=0.2,i"}) == Words{"ggx:roughness=0.2,ior="});
-    CHECK(completions({"diff", "a.png", "--tol"}) == Words{"--tolerance"});
-    CHECK(completions({"render", "--samples", ""}) == Words{"1", "4", "8", "16"});
+    CHECK(completions({"re"}) == Offered{"render"});
+    CHECK(completions({"help", "sch"}) == Offered{"schema"});
+    CHECK(completions({"plugin", ""}) == Offered{"new", "test", "doctor"});
+    CHECK(completions({"render", "--sh"}) == Offered{"--shading"});
+    CHECK(completions({"render", "--reflection", "oren"}) == Offered{"oren-nayar"});
+    CHECK(completions({"render", "--reflection=oren"}) == Offered{"--reflection=oren-nayar"});
+    CHECK(completions({"compare", "--reflection", "phong,gg"}) == Offered{"phong,ggx"});
+    CHECK(completions({"describe", "shape/to"}) == Offered{"shape/torus"});
+    CHECK(completions({"list", "refl"}) == Offered{"reflection"});
+    CHECK(completions({"plot", "ggx:roughness=0.2,i"}) == Offered{"ggx:roughness=0.2,ior="});
+    CHECK(completions({"diff", "a.png", "--tol"}) == Offered{"--tolerance"});
+    CHECK(completions({"render", "--samples", ""}) == Offered{"1", "4", "8", "16"});
 }
 
 TEST_CASE("completion: kernel files are offered next to the models' names") {
@@ -54,35 +54,35 @@ TEST_CASE("completion: kernel files are offered next to the models' names") {
     std::ofstream(folder / "velvet.kernel") << "";
     std::ofstream(folder / "velvet.txt") << "";
     const auto in_folder = [&](const std::vector<std::string>& words) { return completions(words, folder); };
-    CHECK(in_folder({"render", "--reflection", "vel"}) == Words{"velvet.kernel"});
-    CHECK(in_folder({"compare", "--reflection", "phong,vel"}) == Words{"phong,velvet.kernel"});
-    CHECK(in_folder({"plot", "vel"}) == Words{"velvet.kernel"});
-    CHECK(in_folder({"describe", "vel"}) == Words{"velvet.kernel"});
+    CHECK(in_folder({"render", "--reflection", "vel"}) == Offered{"velvet.kernel"});
+    CHECK(in_folder({"compare", "--reflection", "phong,vel"}) == Offered{"phong,velvet.kernel"});
+    CHECK(in_folder({"plot", "vel"}) == Offered{"velvet.kernel"});
+    CHECK(in_folder({"describe", "vel"}) == Offered{"velvet.kernel"});
     // The shell completes paths.
-    CHECK(in_folder({"render", "--shading", "./vel"}) == Words{"\tfiles"});
-    CHECK(in_folder({"describe", "kernels/vel"}) == Words{"\tfiles"});
+    CHECK(in_folder({"render", "--shading", "./vel"}) == Offered{"\tfiles"});
+    CHECK(in_folder({"describe", "kernels/vel"}) == Offered{"\tfiles"});
 }
 
 TEST_CASE("completion: what can be set in a scene, part by part") {
     const std::string scene = k_examples + "still-life.toml";
-    const Words lights = completions({"render", scene, "--set", "light."});
-    CHECK(lights == Words{"light.sky.", "light.lamp.", "light.window.", "light.moon."});
-    CHECK(completions({"render", scene, "--set", "light.lamp.outer"}) == Words{"light.lamp.outer_angle="});
+    const Offered lights = completions({"render", scene, "--set", "light."});
+    CHECK(lights == Offered{"light.sky.", "light.lamp.", "light.window.", "light.moon."});
+    CHECK(completions({"render", scene, "--set", "light.lamp.outer"}) == Offered{"light.lamp.outer_angle="});
     CHECK(completions({"edit", scene, "--change", "object.ball.material.shin"}) ==
-          Words{"object.ball.material.shininess="});
+          Offered{"object.ball.material.shininess="});
     CHECK(completions({"render", "--set", "image.color_management="}) ==
-          Words{"image.color_management=srgb", "image.color_management=none"});
-    CHECK(completions({"render", "--set", "shading.model=go"}) == Words{"shading.model=gouraud"});
+          Offered{"image.color_management=srgb", "image.color_management=none"});
+    CHECK(completions({"render", "--set", "shading.model=go"}) == Offered{"shading.model=gouraud"});
     CHECK(completions({"render", "--set", "nothing.of."}).empty());
-    CHECK(completions({"render", "--format-set", "qua"}) == Words{"quality="});
+    CHECK(completions({"render", "--format-set", "qua"}) == Offered{"quality="});
 }
 
 TEST_CASE("completion: files are left to the shell, and mistakes before the cursor are tolerated") {
-    CHECK(completions({"render", ""}) == Words{"\tfiles"});
-    CHECK(completions({"render", "-o", ""}) == Words{"\tfiles"});
-    CHECK(completions({"render", "--plugin-dir", ""}) == Words{"\tfolders"});
-    CHECK(completions({"render", "--wrong", "--threads", "many", "--sh"}) == Words{"--shading"});
-    CHECK(completions({"render", "no-such-scene.toml", "--set", "obser"}) == Words{"observer."});
+    CHECK(completions({"render", ""}) == Offered{"\tfiles"});
+    CHECK(completions({"render", "-o", ""}) == Offered{"\tfiles"});
+    CHECK(completions({"render", "--plugin-dir", ""}) == Offered{"\tfolders"});
+    CHECK(completions({"render", "--wrong", "--threads", "many", "--sh"}) == Offered{"--shading"});
+    CHECK(completions({"render", "no-such-scene.toml", "--set", "obser"}) == Offered{"observer."});
 }
 
 namespace {
@@ -138,12 +138,12 @@ TEST_CASE(
     const std::string scene =
         scene_with({"", R"(, name = "a.b")", R"(, name = "a=b")", R"(, name = "plain")"}).string();
     CHECK(completions({"render", scene, "--set", "object."}) ==
-          Words{"object.0.", "object.1.", "object.2.", "object.plain."});
-    CHECK(completions({"render", scene, "--set", "object.1.position"}) == Words{"object.1.position="});
+          Offered{"object.0.", "object.1.", "object.2.", "object.plain."});
+    CHECK(completions({"render", scene, "--set", "object.1.position"}) == Offered{"object.1.position="});
     const std::string hidden =
         scene_with({R"(, name = "two\nlines")", R"(, name = "bell\u0007")", R"(, name = "a\ttab")"}).string();
     CHECK(completions({"render", hidden, "--set", "object."}) ==
-          Words{"object.0.", "object.1.", "object.2."});
+          Offered{"object.0.", "object.1.", "object.2."});
 }
 
 TEST_CASE("completion offers no name that would be taken for an option") {
@@ -157,8 +157,8 @@ TEST_CASE("completion offers no name that would be taken for an option") {
     fs::copy_file(plugins / "reflection-lambert.so", folder / "reflection--x.so");
     const std::string where = "--plugin-dir=" + folder.string();
     CHECK_FALSE(completions({"render", where, "--reflection", ""}).contains("-x"));
-    CHECK(completions({"render", where, "--reflection=-"}) == Words{"--reflection=-x"});
-    CHECK(completions({"describe", where, "reflection/-"}) == Words{"reflection/-x"});
+    CHECK(completions({"render", where, "--reflection=-"}) == Offered{"--reflection=-x"});
+    CHECK(completions({"describe", where, "reflection/-"}) == Offered{"reflection/-x"});
 }
 
 TEST_CASE("every verb has a manual page with every option of its help") {
@@ -169,8 +169,8 @@ TEST_CASE("every verb has a manual page with every option of its help") {
         if (verb == "plugin" || verb == "exercise") continue;  // their subverbs have pages
         INFO(verb);
         ++verbs;
-        const CommandResult help = run_candela(
-            {verb, "--help"}, {.input = {}, .environment = {{"COLUMNS", "200"}}, .directory = {}});
+        const CommandResult help =
+            run_candela({verb, "--help"}, {.input = {}, .environment = {{"COLUMNS", "200"}}});
         const CommandResult page = run_candela({verb, "--help-as", "man"});
         CHECK(page.exit_code == 0);
         CHECK(page.out.starts_with(".TH "));

@@ -40,9 +40,7 @@ std::string block(const fs::path& file, const std::string& language, int number 
 std::map<std::string, std::set<std::string>> shipped() {
     const std::string nowhere = scratch_directory().string();
     const CommandResult list = run_candela(
-        {"list", "--json"}, {.input = "",
-                             .environment = {{"XDG_DATA_HOME", nowhere}, {"CANDELA_PLUGIN_PATH", ""}},
-                             .directory = {}});
+        {"list", "--json"}, {.environment = {{"XDG_DATA_HOME", nowhere}, {"CANDELA_PLUGIN_PATH", ""}}});
     std::map<std::string, std::set<std::string>> names;
     for (const auto& plugin : nlohmann::json::parse(list.out)) names[plugin["kind"]].insert(plugin["name"]);
     return names;
@@ -98,8 +96,7 @@ TEST_CASE("the README's scene is valid, and its mistake is explained as shown th
 }
 
 TEST_CASE("the scene of docs/user/scene-file.md is valid") {
-    const Folder directory;
-    directory.write("lights.toml", "[[light]]\ntype = \"ambient\"\n");
+    const Folder directory({{"lights.toml", "[[light]]\ntype = \"ambient\"\n"}});
     expect(check(directory.write("scene.toml", block("docs/user/scene-file.md", "toml"))), 0);
 }
 
@@ -277,10 +274,8 @@ TEST_CASE("the commands and values that help gives as examples can be used as pr
     const std::vector<std::string> small = {"--width", "32", "--height", "24"};
     std::size_t count = 0;
     for (const std::string& example : examples_in(help_of("render"))) {
-        std::vector<std::string> render = {
-            "render", example.starts_with("quality") ? "--format-set" : "--set", example, "-o", "a.jpg"};
-        render.insert(render.end(), small.begin(), small.end());
-        in_scene(render);
+        const char* const option = example.starts_with("quality") ? "--format-set" : "--set";
+        in_scene(joined({"render", option, example, "-o", "a.jpg"}, small));
         ++count;
     }
     for (const std::string& example : examples_in(help_of("edit"))) {
@@ -289,9 +284,7 @@ TEST_CASE("the commands and values that help gives as examples can be used as pr
     }
     for (const std::string& example : examples_in(compare)) {
         if (example.find(',') == std::string::npos) continue;  // an example of another option
-        std::vector<std::string> sheet = {"compare", "--vary", example};
-        sheet.insert(sheet.end(), small.begin(), small.end());
-        in_scene(sheet);
+        in_scene(joined({"compare", "--vary", example}, small));
         ++count;
     }
     CHECK(count >= 4);

@@ -35,9 +35,7 @@ struct Edited {
 Edited edit(const std::vector<std::string>& options) {
     const Folder folder;
     const fs::path file = folder.write("scene.toml", k_scene);
-    std::vector<std::string> words{"edit", "scene.toml"};
-    words.insert(words.end(), options.begin(), options.end());
-    Edited edited{folder.run_words(words), {}};
+    Edited edited{folder.run("edit scene.toml", options), {}};
     edited.text = read_file(file);
     // Neither a draft nor any other file remains next to the scene.
     CHECK(std::distance(fs::directory_iterator(folder), fs::directory_iterator()) == 1);
@@ -67,7 +65,7 @@ TEST_CASE("candela edit does not overwrite changes saved since it read the file"
     const Folder folder;
     const fs::path file = folder.write("scene.toml", k_scene);
     const std::string theirs = k_scene + "# Theirs.\n";
-    CommandSetup setup{.input = "", .environment = {}, .directory = folder};
+    CommandSetup setup{.directory = folder};
     setup.prepare = [] {
         if (::ptrace(PTRACE_TRACEME, 0, nullptr, nullptr) != 0) ::_exit(125);
     };
@@ -122,9 +120,7 @@ TEST_CASE("candela edit writes nothing and says why if the scene would have erro
 
 TEST_CASE("candela edit needs a file to write into") {
     expect(run_candela({"edit", "--change", "image.width=9"}), 2);
-    expect(run_candela({"edit", "-", "--change", "image.width=9"},
-                       {.input = k_scene, .environment = {}, .directory = {}}),
-           2, {"pipe"});
+    expect(run_candela({"edit", "-", "--change", "image.width=9"}, {.input = k_scene}), 2, {"pipe"});
     CHECK(run_candela({"edit", "missing.toml", "--change", "image.width=9"}).exit_code != 0);
 }
 

@@ -7,13 +7,13 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
+#include "support/scene_tables.h"
 
 namespace {
 
 CommandResult render(const std::string& image, const Folder& directory,
                      const std::vector<std::pair<std::string, std::string>>& environment = {}) {
-    directory.write("scene.toml", "version = 1\n[image]\nwidth = 16\nheight = 8\n" + image +
-                                      "\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
+    directory.write("scene.toml", "version = 1\n" + image_table(16, 8) + image + "\n" + k_observer +
                                       "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"dielectric\"\n"
                                       "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"sphere\"\n");
     return directory.run("render scene.toml -o out.ppm", {}, environment);
@@ -26,8 +26,7 @@ const std::string k_image = std::string("P6\n4 1\n255\n") + "\xff" + std::string
 }  // namespace
 
 TEST_CASE("an environment picture, relative to the scene's file, is visible around the object") {
-    const Folder d;
-    d.write("sky.ppm", k_image);
+    const Folder d({{"sky.ppm", k_image}});
     succeeded(render("environment = \"sky.ppm\"", d));
     const std::string picture = d.read("out.ppm");
     const std::size_t first = picture.size() - std::size_t{16} * 8 * 3;
@@ -37,8 +36,7 @@ TEST_CASE("an environment picture, relative to the scene's file, is visible arou
 }
 
 TEST_CASE("mistakes in the environment are reported at its place") {
-    const Folder d;
-    d.write("sky.ppm", k_image);
+    const Folder d({{"sky.ppm", k_image}});
     expect(render("environment = \"sea.ppm\"", d), 3, {"scene.toml:5:15: error: 'sea.ppm' does not exist"});
     expect(render("environment = \".\"", d), 3, {"scene.toml:5:15: error: '.' is a directory, not a file"});
     expect(render("environment = 3", d), 3,

@@ -187,8 +187,7 @@ TEST_CASE("an explanation as text has the same numbers and ends with the byte") 
 
 TEST_CASE("without a compiler, explain says so and reports the renderer's data") {
     const CommandResult result = expect_out(
-        run_candela({"explain", "--pixel", "256,320"},
-                    {.input = "", .environment = {{"PATH", "/nowhere"}, {"CXX", ""}}, .directory = {}}),
+        run_candela({"explain", "--pixel", "256,320"}, {.environment = {{"PATH", "/nowhere"}, {"CXX", ""}}}),
         0, {"the kernels' steps are left out: no C++ compiler is installed", "N.L = "});
     CHECK_FALSE(holds(result.out, "n_dot_l"));
 }
@@ -252,8 +251,7 @@ TEST_CASE("kept kernels explain other pixels without a compiler, with the same r
 TEST_CASE(
     "pixels on standard input are explained line by line, like each of them alone; invalid lines are "
     "errors") {
-    CommandSetup setup;
-    setup.input = "256,300\n9,9\nnothing\nno UTF-8: \xff\n512,0\n250,290\n";
+    CommandSetup setup{.input = "256,300\n9,9\nnothing\nno UTF-8: \xff\n512,0\n250,290\n"};
     const CommandResult all = run_candela({"explain", "--pixel", "-", "--json", "--quiet"}, setup);
     CHECK(all.exit_code == 2);
     std::istringstream lines(all.out);

@@ -10,43 +10,36 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_observer = "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n";
-constexpr const char* k_models = "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
-constexpr const char* k_light = "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n";
-constexpr const char* k_cube = "[[object]]\nname = \"box\"\ntype = \"cube\"\n";
-
-const std::string k_scene = std::string("version = 1\n") + k_observer + k_models + k_light + k_cube;
+const std::string k_scene = k_start + k_models + k_light + k_cube;
 
 /// `candela check` of files named as written, in the test's directory.
 CommandResult check(const std::vector<std::string>& files, const Folder& directory) {
-    std::vector<std::string> words{"check"};
-    words.insert(words.end(), files.begin(), files.end());
-    return directory.run_words(words);
+    return directory.run("check", files);
 }
 
 }  // namespace
 
 TEST_CASE("several files form one scene, in any order, on the command line and by include") {
     const Folder d;
-    d.write("a.toml", std::string("version = 1\n") + k_observer + k_models);
-    d.write("b.toml", std::string("version = 1\n") + k_light);
-    d.write("c.toml", std::string(k_cube));
+    d.write("a.toml", k_start + k_models);
+    d.write("b.toml", "version = 1\n" + k_light);
+    d.write("c.toml", k_cube);
     CHECK(holds(check({"a.toml", "b.toml", "c.toml"}, d).out, "1 (1 point)"));
     CHECK(check({"c.toml", "b.toml", "a.toml"}, d).exit_code == 0);
-    d.write("deep/more.toml", "include = [\"../c.toml\"]\n" + std::string(k_light));
+    d.write("deep/more.toml", "include = [\"../c.toml\"]\n" + k_light);
     d.write("all.toml", "version = 1\ninclude = [\"a.toml\", \"deep/more.toml\"]\n");
     expect_out(check({"all.toml"}, d), 0, {"'box'"});
 }
 
 TEST_CASE("a repeated unique table is an error that names both places") {
-    const Folder d;
-    d.write("a.toml", k_scene + "[image]\nwidth = 8\n[room]\nwidth = 9\n");
+    const Folder d({{"a.toml", k_scene + "[image]\nwidth = 8\n[room]\nwidth = 9\n"}});
     const auto with = [&](const std::string& text) {
         d.write("b.toml", text);
         return check({"a.toml", "b.toml"}, d);
@@ -60,7 +53,7 @@ TEST_CASE("a repeated unique table is an error that names both places") {
            {"b.toml:1:2: error: 'shading' is given twice; first at a.toml:5:2"});
     expect(with("[reflection]\nmodel = \"flat\"\n"), 3, {"'reflection' is given twice; first at a.toml:7:2"});
     expect(with("version = 2\n"), 3, {"b.toml:1:1: error: 'version' is given twice; first at a.toml:1:1"});
-    expect(with("version = 1\n" + std::string(k_cube)), 3,
+    expect(with("version = 1\n" + k_cube), 3,
            {"b.toml:3:8: error: another object is called 'box', at a.toml:"});
     CHECK(with("version = 1\n").exit_code == 0);
 }
@@ -101,8 +94,7 @@ TEST_CASE("includes that are circular, missing or repeated are errors at their l
 }
 
 TEST_CASE("R11: each kind of unreadable file has its own message and exit code") {
-    const Folder d;
-    d.write("scene.toml", k_scene);
+    const Folder d({{"scene.toml", k_scene}});
     expect(check({"scnee.toml"}, d), 1,
            {"scnee.toml: error: there is no such file", "did you mean 'scene.toml'?"});
     expect(check({"folder/scene.toml"}, d), 1,

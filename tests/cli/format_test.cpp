@@ -14,11 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Folder with_scene(const std::string& more = "") {
-    const Folder directory;
-    directory.write("scene.toml", box_scene(64, 48) + more);
-    return directory;
-}
+Folder with_scene(const std::string& more = "") { return {{"scene.toml", box_scene(64, 48) + more}}; }
 
 /// The size of a picture that render writes with the arguments `more`.
 std::uintmax_t rendered_size(const Folder& directory, const std::string& name,

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 CommandResult limited(const Folder& directory, const std::vector<std::string>& words, rlim_t most) {
-    CommandSetup setup{.input = "", .environment = {}, .directory = directory};
+    CommandSetup setup{.directory = directory};
     setup.prepare = [most] {
         const rlimit limit = {most, most};
         if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) ::_exit(125);
@@ -102,7 +102,7 @@ TEST_CASE("a limit on threads gives a message or a picture, never a program that
     fs::permissions(d, fs::perms::all);
     const auto with = [&](const std::vector<std::string>& words, rlim_t most) {
         // LeakSanitizer starts a thread in the end, and calls it an error if it cannot.
-        CommandSetup setup{.input = "", .environment = {{"ASAN_OPTIONS", "detect_leaks=0"}}, .directory = d};
+        CommandSetup setup{.environment = {{"ASAN_OPTIONS", "detect_leaks=0"}}, .directory = d};
         setup.prepare = [most] {
             constexpr int k_nobody = 65534;
             if (::geteuid() == 0 && (::setgid(k_nobody) != 0 || ::setuid(k_nobody) != 0)) ::_exit(125);

@@ -11,15 +11,14 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-const std::string k_start =
-    "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
-    "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
+const std::string k_head = k_start + k_models;
 
 std::string times(std::size_t count, const std::string& part) {
     std::string result;
@@ -28,8 +27,7 @@ std::string times(std::size_t count, const std::string& part) {
 }
 
 CommandResult check(const std::string& text, const std::vector<std::string>& more = {}) {
-    const Folder directory;
-    directory.write("a.toml", text);
+    const Folder directory({{"a.toml", text}});
     return directory.run("check a.toml", more);
 }
 
@@ -67,7 +65,7 @@ TEST_CASE("brackets and points in strings and comments do not nest, nor do many 
     for (const std::string& quoted : {"\"" + brackets + "\\\"" + brackets + "\"", "'" + brackets + "\\'",
                                       "'''" + brackets + "\n''" + brackets + "'''''",
                                       "\"\"\"" + brackets + "\n\\\"\"\"" + brackets + "\"\"\"\""}) {
-        expect(check(k_start + texts + quoted + " # " + brackets + "\n"), 0);
+        expect(check(k_head + texts + quoted + " # " + brackets + "\n"), 0);
     }
     // The error is the earlier unclosed bracket, not the many that follow.
     expect(check(times(40, "[a\n")), 3, {"a.toml:1:3: error: the header's closing ] is missing"});
@@ -75,15 +73,15 @@ TEST_CASE("brackets and points in strings and comments do not nest, nor do many 
 }
 
 TEST_CASE("exceeding a scene's limits is an error that states the limit") {
-    expect(check(k_start + times(100'001, "[[light]]\n")), 3,
+    expect(check(k_head + times(100'001, "[[light]]\n")), 3,
            {"a.toml:100009:1: error: the scene has 100001 lights; it may have at most 100000"});
-    expect(check(k_start + times(100'001, "[[object]]\n")), 3, {"100001 objects", "at most 100000"});
-    expect(check(k_start + "a = [" + times(5'000'001, "1,") + "]\n"), 3, {"more than 5000000 values"});
+    expect(check(k_head + times(100'001, "[[object]]\n")), 3, {"100001 objects", "at most 100000"});
+    expect(check(k_head + "a = [" + times(5'000'001, "1,") + "]\n"), 3, {"more than 5000000 values"});
 }
 
 TEST_CASE("thousands of errors are counted, not all shown") {
     const CommandResult result =
-        check(k_start + times(5'000, "[[object]]\ntype = \"cub\"\nsizes = 3\nname = \"same\"\n"));
+        check(k_head + times(5'000, "[[object]]\ntype = \"cub\"\nsizes = 3\nname = \"same\"\n"));
     expect(result, 3,
            {"a.toml:10:8: error: no shape plugin is called 'cub'; did you mean 'cube'?", "and 9949 more"});
 }
@@ -91,7 +89,7 @@ TEST_CASE("thousands of errors are counted, not all shown") {
 TEST_CASE("thousands of keys, at the root and in a table, are read") {
     std::string keys;
     for (int i = 0; i < 20'000; ++i) keys += "k" + std::to_string(i) + " = 1\n";
-    expect(check(keys + k_start + "[room]\n" + keys), 3,
+    expect(check(keys + k_head + "[room]\n" + keys), 3,
            {"a.toml:1:1: error: unknown key 'k0' in the scene", "and 39950 more"});
 }
 
@@ -102,7 +100,7 @@ TEST_CASE("a message does not quote megabytes of input") {
           "[room]\nwidth = \"" + megabyte + "\"\n",
           "[[light]]\nname = \"" + megabyte + "\"\ntype = \"ambient\"\nintensity = -1\n",
           "a = " + megabyte + "\n", "include = [\"" + megabyte + "\"]\n"}) {
-        const CommandResult result = check(text + k_start);
+        const CommandResult result = check(text + k_head);
         INFO(result.err.substr(0, 3000));
         CHECK(result.exit_code == 3);
         CHECK(result.err.size() < 6000);
@@ -111,7 +109,7 @@ TEST_CASE("a message does not quote megabytes of input") {
 
 TEST_CASE("input quoted in a message is not a command to the terminal") {
     const CommandResult result =
-        check(k_start +
+        check(k_head +
               "[[light]]\nname = \"\\u001b[2J\"\ntype = \"\\u001b[31m\\u0007\\u009b\"\n"
               "\"\\u001b[A\\nx\" = 1\n");
     CHECK(result.exit_code == 3);
@@ -127,7 +125,7 @@ TEST_CASE("endless or countless includes are errors") {
         write_file(d / ("c" + std::to_string(i) + ".toml"),
                    "include = [\"c" + std::to_string(i + 1) + ".toml\"]\n");
     }
-    const CommandSetup there{.input = "", .environment = {}, .directory = d};
+    const CommandSetup there{.directory = d};
     expect(run_candela({"check", "c0.toml"}, there), 3,
            {"c32.toml:1:12: error: files include one another more than 32 levels deep"});
     std::string names;
@@ -135,9 +133,9 @@ TEST_CASE("endless or countless includes are errors") {
         write_file(d / ("w" + std::to_string(i) + ".toml"), "[[light]]\ntype = \"ambient\"\n");
         names += "\"w" + std::to_string(i) + ".toml\", ";
     }
-    d.write("wide.toml", "include = [" + names + "]\n" + k_start);
+    d.write("wide.toml", "include = [" + names + "]\n" + k_head);
     expect(run_candela({"check", "wide.toml"}, there), 3, {"the scene consists of more than 1000 files"});
-    d.write("same.toml", "include = [" + times(5000, "\"w0.toml\", ") + "]\n" + k_start);
+    d.write("same.toml", "include = [" + times(5000, "\"w0.toml\", ") + "]\n" + k_head);
     expect(run_candela({"check", "same.toml"}, there), 3, {"same.toml:1:23: error: 'w0.toml' is read twice"});
 }
 
@@ -155,7 +153,7 @@ TEST_CASE("a picture, and a shape, that do not fit into memory are errors that s
     expect(in_four_gigabytes("render --width 65536 --height 65536" + output), 1,
            {"a picture of 65536 x 65536 pixels needs 51.5 GB of memory; ", " are available"});
     const fs::path scene = directory.write(
-        "scene.toml", k_start + "[[object]]\ntype = \"sphere\"\nsegments = 8192\nposition = [2, 0, 0]\n");
+        "scene.toml", k_head + "[[object]]\ntype = \"sphere\"\nsegments = 8192\nposition = [2, 0, 0]\n");
     expect(in_four_gigabytes("render " + scene.string() + output), 1,
            {"scene.toml:9:1: error: object number 0: a shape of 67", " triangles needs ", " GB of memory; "});
     CHECK_FALSE(directory.has("a.pfm"));

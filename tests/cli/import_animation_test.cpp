@@ -207,11 +207,7 @@ TEST_CASE("a model in place of a scene is shown at rest by render and animated b
     moving.animate(moving.box("box", {{"translation", {1, 0, 0}}}), "translation", {0, 1},
                    {0, 3, 0, 0, 4, 0});
     moving.write(folder, "moving");
-    const std::vector<std::string> size = {"--width", "40", "--height", "30"};
-    const auto words = [&](std::vector<std::string> of) {
-        of.insert(of.end(), size.begin(), size.end());
-        return of;
-    };
+    const auto words = [](const Words& of) { return joined(of, {"--width", "40", "--height", "30"}); };
     succeeded(folder.run_words(words({"render", "still.gltf", "-o", "still.ppm"})));
     const CommandResult rest =
         succeeded(folder.run_words(words({"render", "moving.gltf", "-o", "rest.ppm"})));

@@ -104,8 +104,7 @@ struct Imported {
 };
 
 Imported import(File file) {
-    const Folder folder;
-    folder.write("a.glb", file.glb());
+    const Folder folder({{"a.glb", file.glb()}});
     Imported imported{folder.run("import a.glb"), "", ""};
     INFO(imported.result.err);
     REQUIRE(imported.result.exit_code == 0);

@@ -15,6 +15,7 @@
 #include "support/expect.h"
 #include "support/folder.h"
 #include "support/ppm.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -218,10 +219,7 @@ TEST_CASE("imported materials reflect no more than they receive, with one note, 
 
 TEST_CASE("a picture's format follows from its content: a misnamed one is read, with a note") {
     const Folder folder;
-    folder.write(
-        "flat.toml",
-        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 8\nheight = 8\n"
-        "background = [230, 10, 20]\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n");
+    folder.write("flat.toml", k_start + image_table(8, 8) + "background = [230, 10, 20]\n" + k_models);
     for (const char* const name : {"red.jpg", "red.png"})
         succeeded(folder.run_words({"render", "flat.toml", "-o", name}));
     fs::rename(folder / "red.jpg", folder / "wrong.png");
@@ -254,12 +252,11 @@ TEST_CASE("a broken or empty picture becomes a note and a plain colour on import
         const Rendered model = rendered(folder, "a.obj");
         CHECK(is_red(model.image.middle()));
         CHECK(holds(model.result.err, fmt::format("the texture '{}' of material 'm' is left out: ", name)));
-        folder.write(
-            "a.toml",
-            fmt::format("version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
-                        "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[object]]\n"
-                        "type = \"mesh\"\nfile = \"a.obj\"\nencloses = true\ncolor_texture = \"{}\"\n",
-                        name));
+        folder.write("a.toml",
+                     k_start + k_models +
+                         fmt::format("[[object]]\ntype = \"mesh\"\nfile = \"a.obj\"\nencloses = true\n"
+                                     "color_texture = \"{}\"\n",
+                                     name));
         const CommandResult scene = folder.run("render a.toml -o b.ppm");
         CHECK(scene.exit_code != 0);
         CHECK(holds(scene.err, "cannot be read as a picture"));
@@ -293,8 +290,7 @@ TEST_CASE("with --allow-outside a model may name files outside its folder; messa
 }
 
 TEST_CASE("a model far from its origin gives the same picture as at the origin") {
-    const Folder folder;
-    folder.write("here.obj", ball(1, {0, 0, 0}));
+    const Folder folder({{"here.obj", ball(1, {0, 0, 0})}});
     const Ppm here = rendered(folder, "here.obj").image;
     for (const std::array<double, 3>& at : {std::array{500000.25, 4500000.75, 120.0},
                                             {4500000.0, 600000.0, 4400000.0},
@@ -311,8 +307,7 @@ TEST_CASE("a model far from its origin gives the same picture as at the origin")
 }
 
 TEST_CASE("a small model far from the origin is drawn, and its scene says where it lies") {
-    const Folder folder;
-    folder.write("a.obj", ball(0.05, {500000.25, 4500000.75, 120}));
+    const Folder folder({{"a.obj", ball(0.05, {500000.25, 4500000.75, 120})}});
     const Rendered model = rendered(folder, "a.obj");
     CHECK(model.image.middle() != model.image.at(0, 0));
     succeeded(folder.run("import a.obj -o a.toml"));
@@ -327,8 +322,7 @@ TEST_CASE("a small model far from the origin is drawn, and its scene says where 
 }
 
 TEST_CASE("numbers of a scene are read back unchanged even if six digits are too few") {
-    const Folder folder;
-    folder.write("a.obj", ball(1, {99.015625, 0, 0}));
+    const Folder folder({{"a.obj", ball(1, {99.015625, 0, 0})}});
     const CommandResult result = folder.run("import a.obj -o -");
     CHECK_FALSE(holds(result.out, "origin"));
     CHECK(holds(result.out, "= [99.015625, "));

@@ -17,6 +17,7 @@
 #include "support/expect.h"
 #include "support/folder.h"
 #include "support/ppm.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -163,8 +164,7 @@ TEST_CASE("import translates an MTL file's Phong parameters, and reports each lo
 }
 
 TEST_CASE("import reports missing libraries, materials and textures, and goes on") {
-    const Folder folder;
-    folder.write("two.obj", k_squares);
+    const Folder folder({{"two.obj", k_squares}});
     CommandResult result = expect(folder.run("render two.obj -o a.ppm"), 0,
                                   {"2 materials are not in any material library, the first of them 'left'"});
     folder.write("two.mtl",
@@ -248,10 +248,7 @@ TEST_CASE("import translates a glTF file's camera, lights and metallic-roughness
 
 TEST_CASE("a texture inside a glTF file is written next to the scene, and render shows it without that") {
     const Folder folder;
-    folder.write(
-        "grey.toml",
-        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 2\nheight = 2\n"
-        "background = [10, 200, 30]\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n");
+    folder.write("grey.toml", k_start + image_table(2, 2) + "background = [10, 200, 30]\n" + k_models);
     succeeded(folder.run("render grey.toml -o green.png"));
     folder.write("a.gltf",
                  gltf(fmt::format(R"({}, "images": [{{"name": "leaf", "uri": "data:image/png;base64,{}"}}],

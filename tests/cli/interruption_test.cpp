@@ -36,20 +36,9 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
 std::vector<std::string> render_to(const fs::path& image, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words = {CANDELA_TEST_COMMAND,
-                                      "render",
-                                      "-o",
-                                      image.string(),
-                                      "--width",
-                                      "1500",
-                                      "--height",
-                                      "1500",
-                                      "--samples",
-                                      "1",
-                                      "--threads",
-                                      "1"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
+    return joined({CANDELA_TEST_COMMAND, "render", "-o", image.string(), "--width", "1500", "--height",
+                   "1500", "--samples", "1", "--threads", "1"},
+                  more);
 }
 
 std::vector<fs::path> files_in(const fs::path& directory) {
@@ -192,7 +181,7 @@ TEST_CASE("killed at any moment, an EXR leaves nothing in the directory of tempo
     const fs::path temporary = directory / "temporary";
     fs::create_directory(image.parent_path());
     fs::create_directory(temporary);
-    const CommandSetup setup{.input = "", .environment = {{"TMPDIR", temporary.string()}}, .directory = {}};
+    const CommandSetup setup{.environment = {{"TMPDIR", temporary.string()}}};
     succeeded(run_program(render_to(image), setup));
     int killed_writing = 0;
     for (int i = 0; i < 10; ++i) {
@@ -283,18 +272,14 @@ TEST_CASE("a directory that cannot be written to is an error, and the old pictur
     std::vector<std::string> as_nobody;
     if (::geteuid() == 0) {
         as_nobody = {"setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"};
-        std::vector<std::string> words = as_nobody;
-        words.insert(words.end(), {CANDELA_TEST_COMMAND, "--version"});
-        if (run_program(words).exit_code != 0) {
+        if (run_program(joined(as_nobody, {CANDELA_TEST_COMMAND, "--version"})).exit_code != 0) {
             fs::remove_all(directory);
             SKIP("nobody else can run the command here");
         }
     }
     for (const char* const name : {"picture.png", "new.png"}) {
-        std::vector<std::string> words = as_nobody;
-        const std::vector<std::string> render = render_to(directory / name);
-        words.insert(words.end(), render.begin(), render.end());
-        expect(run_program(words), 1, {"cannot be created: Permission denied"});
+        expect(run_program(joined(as_nobody, render_to(directory / name))), 1,
+               {"cannot be created: Permission denied"});
         check_only_old(image, "old");
     }
     fs::permissions(directory,

@@ -8,10 +8,10 @@
 #include "support/box_scene.h"
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
-using Words = std::vector<std::string>;
 
 namespace {
 
@@ -51,19 +51,15 @@ struct Workspace {
     }
 
     static std::string scene(const std::string& reflection, const std::string& light) {
-        return "version = 1\n[image]\nwidth = 40\nheight = 30\n[observer]\nposition = [0, 0, 4]\nlook_at = "
-               "[0, 0, 0]\n"
-               "[[light]]\ntype = \"" +
-               light +
-               "\"\nposition = [2, 2, 3]\n[[object]]\ntype = \"sphere\"\nname = \"ball\"\nshading = "
-               "\"flat\"\n" +
+        return k_start + image_table(40, 30) + "[[light]]\ntype = \"" + light +
+               "\"\nposition = [2, 2, 3]\n"
+               "[[object]]\ntype = \"sphere\"\nname = \"ball\"\nshading = \"flat\"\n" +
                reflection + "\n";
     }
 
     CommandResult candela(const Words& words, const std::string& path = "") const {
         // One cache for all tests: the kernels are the same.
         CommandSetup setup{
-            .input = "",
             .environment = {{"XDG_CACHE_HOME", (directory.parent_path() / "kernel_cache").string()}},
             .directory = directory};
         if (!path.empty()) setup.environment.emplace_back("PATH", path);

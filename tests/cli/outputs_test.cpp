@@ -8,15 +8,15 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* k_rest =
-    "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[shading]\nmodel = \"phong\"\n[reflection]\n"
-    "model = \"phong\"\n[animation]\nframes = 2\n[[animation.track]]\npath = \"object.mesh.rotation\"\n"
+constexpr const char* k_animation =
+    "[animation]\nframes = 2\n[[animation.track]]\npath = \"object.mesh.rotation\"\n"
     "keys = [[0, [0, 0, 0]], [1, [0, 9, 0]]]\n";
 
 /// The inputs have names that a picture may also have.
@@ -24,8 +24,8 @@ Folder folder_with_scene() {
     const Folder d;
     for (const std::string environment : {"", "environment = \"sky.ppm\"\n"})
         write_file(d / (environment.empty() ? "plain.ppm" : "scene.ppm"),
-                   std::string("include = [\"part.ppm\"]\nversion = 1\n") + k_rest +
-                       "[image]\nwidth = 8\nheight = 8\n" + environment +
+                   "include = [\"part.ppm\"]\n" + k_start + k_models + k_animation + image_table(8, 8) +
+                       environment +
                        "[[object]]\nname = \"mesh\"\ntype = \"mesh\"\nfile = \"model.gltf\"\n"
                        "color_texture = \"texture.ppm\"\n");
     d.write("part.ppm", "[[light]]\ntype = \"ambient\"\n");
@@ -240,11 +240,9 @@ TEST_CASE("a file that replaces another keeps the execute permissions, but not s
 }
 
 TEST_CASE("a file in CANDELA_PLUGIN_PATH is reported") {
-    const Folder d;
-    d.write("file", "");
+    const Folder d({{"file", ""}});
     const auto with = [&](const std::string& path) {
-        return run_candela({"list"},
-                           {.input = "", .environment = {{"CANDELA_PLUGIN_PATH", path}}, .directory = d});
+        return run_candela({"list"}, {.environment = {{"CANDELA_PLUGIN_PATH", path}}, .directory = d});
     };
     expect(with((d / "file").string()), 1, {"CANDELA_PLUGIN_PATH names '", "which is not a folder"});
     expect(with(d.path().string() + ":" + (d / "file").string()), 1, {"which is not a folder"});

@@ -22,30 +22,21 @@ std::string scene_text() {
 )";
 }
 
-Folder with_scene() {
-    const Folder directory;
-    directory.write("scene.toml", scene_text());
-    return directory;
-}
-
-void require(const CommandResult& result) {
-    INFO(result.err);
-    REQUIRE(result.exit_code == 0);
-}
+Folder with_scene() { return {{"scene.toml", scene_text()}}; }
 
 void render_part(const Folder& directory, const std::string& image, const std::string& part) {
-    require(directory.run_words({"render", "scene.toml", "-o", image, "--part", part}));
+    succeeded(directory.run_words({"render", "scene.toml", "-o", image, "--part", part}));
 }
 
 void check_parts_of(const std::string& extension) {
     const Folder directory = with_scene();
     const std::string image = "poster." + extension, whole = "whole." + extension;
-    require(directory.run_words({"render", "scene.toml", "-o", whole}));
+    succeeded(directory.run_words({"render", "scene.toml", "-o", whole}));
     for (const int parts : {1, 3, 7}) {
         INFO(extension << ", " << parts << " parts");
         for (int i = parts; i >= 1; --i)
             render_part(directory, image, std::to_string(i) + "/" + std::to_string(parts));
-        require(directory.run_words({"assemble", image}));
+        succeeded(directory.run_words({"assemble", image}));
         CHECK(directory.read(image) == directory.read(whole));
         CHECK_FALSE(fs::exists(directory / (image + ".parts")));
         fs::remove(directory / image);
@@ -68,9 +59,7 @@ TEST_CASE("large pictures, which are written in tiles, read back unchanged") {
     const Folder directory = with_scene();
     const std::vector<std::string> size = {"--width", "16384", "--height", "300"};
     for (const std::string extension : {"tif", "png"}) {
-        std::vector<std::string> words = {"render", "scene.toml", "-o", "large." + extension};
-        words.insert(words.end(), size.begin(), size.end());
-        require(directory.run_words(words));
+        succeeded(directory.run("render scene.toml -o large." + extension, size));
     }
     expect_out(directory.run("diff large.tif large.png"), 0, {"identical           100 %"});
 }
@@ -90,9 +79,9 @@ TEST_CASE("assemble says which parts are missing and which were made from other 
     CHECK(result.exit_code == 1);
     CHECK(holds(result.err, "made from other inputs than the part rendered last: 1-2, 4"));
     for (const char* const part : {"1/6", "2/6", "4/6"}) render_part(directory, "poster.png", part);
-    require(directory.run("assemble poster.png --keep-parts"));
+    succeeded(directory.run("assemble poster.png --keep-parts"));
     CHECK(directory.has("poster.png.parts/6-of-6.pixels"));
-    require(directory.run("render scene.toml -o whole.png"));
+    succeeded(directory.run("render scene.toml -o whole.png"));
     CHECK(directory.read("poster.png") == directory.read("whole.png"));
 }
 
@@ -106,7 +95,7 @@ TEST_CASE("a part that is up to date is kept, a truncated one is not, and repeat
     render_part(directory, "poster.tif", "1/2");
     CHECK(read_file(file) == whole);
     render_part(directory, "poster.tif", "2/2");
-    require(directory.run("assemble poster.tif"));
+    succeeded(directory.run("assemble poster.tif"));
     expect(directory.run("assemble poster.tif"), 0, {"is already complete"});
     CHECK(holds(directory.run("render scene.toml -o poster.tif --part 2/2").err,
                 "the picture is already complete"));
@@ -128,7 +117,7 @@ TEST_CASE("a part whose bytes have changed is not used, and is rendered again") 
     CHECK_FALSE(directory.has("poster.tif"));
     render_part(directory, "poster.tif", "2/2");
     CHECK(read_file(file) == whole);
-    require(directory.run("assemble poster.tif"));
+    succeeded(directory.run("assemble poster.tif"));
 }
 
 TEST_CASE("a description that has changed since its parts were rendered makes no other picture of them") {
@@ -147,13 +136,13 @@ TEST_CASE("a description that has changed since its parts were rendered makes no
         CHECK_FALSE(directory.has("poster.tif"));
     }
     write_file(description, right);
-    require(directory.run("assemble poster.tif"));
+    succeeded(directory.run("assemble poster.tif"));
 }
 
 TEST_CASE("submit --parts makes the same picture as in one go, and status follows it") {
     const Folder directory = with_scene();
-    require(directory.run("submit scene.toml -o poster.tif --parts 5 --jobs 2"));
-    require(directory.run("render scene.toml -o whole.tif"));
+    succeeded(directory.run("submit scene.toml -o poster.tif --parts 5 --jobs 2"));
+    succeeded(directory.run("render scene.toml -o whole.tif"));
     CHECK(directory.read("poster.tif") == directory.read("whole.tif"));
     const auto status = nlohmann::json::parse(directory.run("status --json").out).at(0);
     CHECK(status["done"] == 5);
@@ -167,9 +156,8 @@ TEST_CASE("messages explain mistakes with parts") {
     const auto refused = [&](const std::vector<std::string>& words, int code, const std::string& part) {
         expect(directory.run_words(words), code, {part});
     };
-    const auto render = [](std::vector<std::string> more) {
-        more.insert(more.begin(), {"render", "scene.toml", "-o", "p.png"});
-        return more;
+    const auto render = [](const Words& more) {
+        return joined({"render", "scene.toml", "-o", "p.png"}, more);
     };
     refused(render({"--part", "3"}), 2, "'3'; expected a part such as 3/16");
     refused(render({"--part", "x/2"}), 2, "'x/2'; expected a part");
@@ -194,7 +182,7 @@ TEST_CASE("messages explain mistakes with parts") {
 #if !defined(__SANITIZE_ADDRESS__) && !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer)
 TEST_CASE("a part of a picture of 65536 x 65536, and a picture by rows, take less than 1 GiB") {
     const Folder directory = with_scene();
-    CommandSetup setup{.input = "", .environment = {}, .directory = directory};
+    CommandSetup setup{.directory = directory};
     setup.prepare = [] {
         const rlimit room{.rlim_cur = rlim_t{1} << 30, .rlim_max = rlim_t{1} << 30};
         ::setrlimit(RLIMIT_AS, &room);

@@ -7,6 +7,7 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 import candela.core;
@@ -22,10 +23,8 @@ bool is_printable(const std::string& text) {
 }
 
 std::string scene(const std::string& name) {
-    return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[shading]\nmodel = "
-           "\"phong\"\n"
-           "[reflection]\nmodel = \"phong\"\n[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\nname = " +
-           name + "\n[[object]]\ntype = \"cube\"\nname = " + name + "\n";
+    return k_start + k_models + k_light + "name = " + name + "\n[[object]]\ntype = \"cube\"\nname = " + name +
+           "\n";
 }
 
 /// A folder with a shipped plugin whose manifest is changed.

@@ -10,6 +10,7 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -25,12 +26,7 @@ constexpr const char* k_box = "[[object]]\ntype = \"cube\"\nposition = [0, 1, 0]
 constexpr const char* k_ball = "[[object]]\ntype = \"sphere\"\nposition = [0, -1, 0]\n";
 
 /// A scene without models except those in `more`.
-std::string scene(const std::string& more) {
-    return "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight "
-           "= 16\n"
-           "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n" +
-           more;
-}
+std::string scene(const std::string& more) { return k_start + image_table(16, 16) + k_light + more; }
 
 /// A scene in a file, and a name for its picture.
 struct Files {
@@ -38,9 +34,7 @@ struct Files {
         : directory(scratch_directory()), scene_file(write_file(directory / "scene.toml", text).string()) {}
 
     std::vector<std::string> render(const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> words = {"render", scene_file, "-o", image().string()};
-        words.insert(words.end(), more.begin(), more.end());
-        return words;
+        return joined({"render", scene_file, "-o", image().string()}, more);
     }
     fs::path image() const { return directory / "a.png"; }
     /// Removes the picture; returns whether it existed.
@@ -54,9 +48,8 @@ struct Files {
 
 TEST_CASE("R13: without anybody to ask, the error names --defaults, which means yes") {
     const Files files(scene(k_box));
-    const CommandResult nobody =
-        expect(run_candela(files.render(), {.input = "y\n", .environment = {}, .directory = {}}), 3,
-               {"the scene names no shading or reflection model", "--defaults"});
+    const CommandResult nobody = expect(run_candela(files.render(), {.input = "y\n"}), 3,
+                                        {"the scene names no shading or reflection model", "--defaults"});
     CHECK_FALSE(holds(nobody.err, "[Y/n]"));
     CHECK_FALSE(files.take_image());
     expect(run_candela(files.render({"--defaults"})), 0);
@@ -143,8 +136,7 @@ TEST_CASE("R13: a question needs terminals on stdin and stderr, but not on stdou
     for (const OnTerminal streams : {OnTerminal{.in = true, .out = true, .err = false},
                                      OnTerminal{.in = false, .out = true, .err = true}}) {
         INFO("stdin a terminal: " << streams.in);
-        const CommandResult result = talk_to_candela(
-            files.render(), {}, {.input = "y\n", .environment = {}, .directory = {}}, streams);
+        const CommandResult result = talk_to_candela(files.render(), {}, {.input = "y\n"}, streams);
         CHECK(result.exit_code == 3);
         CHECK(holds(result.out + result.err, "--defaults"));
         CHECK_FALSE(holds(result.out + result.err, "[Y/n]"));
@@ -178,16 +170,14 @@ TEST_CASE("R13: there is no question about an invalid scene") {
 
 TEST_CASE("with NO_COLOR, neither a question nor the messages after it have colour") {
     const Files files(scene(k_box));
-    const CommandSetup plain{
-        .input = "", .environment = {{"TERM", "xterm"}, {"NO_COLOR", "1"}}, .directory = {}};
+    const CommandSetup plain{.environment = {{"TERM", "xterm"}, {"NO_COLOR", "1"}}};
     const CommandResult result = talk_to_candela(files.render(), {{k_both, "n\n"}}, plain);
     CHECK(result.exit_code == 3);
     CHECK_FALSE(holds(result.out, "\x1b["));
 }
 
 TEST_CASE("a long render shows its progress only on a terminal", "[whole]") {
-    std::string text = scene(
-        "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[object]]\ntype = \"sphere\"\n");
+    std::string text = scene(k_models + "[[object]]\ntype = \"sphere\"\n");
     for (int i = 0; i < 500; ++i) {
         text += fmt::format("[[light]]\ntype = \"point\"\nposition = [{}, 4, {}]\n", -4 + 0.016 * i,
                             4 - 0.008 * i);
@@ -195,8 +185,7 @@ TEST_CASE("a long render shows its progress only on a terminal", "[whole]") {
     const Files files(text);
     const std::vector<std::string> words =
         files.render({"--set", "observer.fov=16", "--width", "1400", "--height", "1400", "--threads", "1"});
-    const CommandSetup slow{
-        .input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "baseline"}}, .directory = {}};
+    const CommandSetup slow{.environment = {{"CANDELA_INSTRUCTION_SET", "baseline"}}};
     const CommandResult seen = expect_out(talk_to_candela(words, {}, slow), 0, {"\rrendering [", " %"});
     // The bar is erased before the last line.
     CHECK(holds(seen.out, "\r\x1b[K" + files.image().string() + ": 1400 x 1400"));
@@ -207,9 +196,7 @@ TEST_CASE("a long render shows its progress only on a terminal", "[whole]") {
 }
 
 TEST_CASE("a long check shows its progress only on a terminal", "[whole]") {
-    std::string text = scene(
-        "[room]\nwidth = 40\nheight = 30\ndepth = 30\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = "
-        "\"phong\"\n");
+    std::string text = scene("[room]\nwidth = 40\nheight = 30\ndepth = 30\n" + k_models);
     // Rods side by side, whose boxes overlap those of thousands of others.
     for (int i = 0; i < 6000; ++i)
         text += fmt::format(
@@ -218,8 +205,7 @@ TEST_CASE("a long check shows its progress only on a terminal", "[whole]") {
             0.002 * i - 6);
     const Files files(text);
     const std::vector<std::string> words{"check", files.scene_file};
-    const CommandSetup slow{
-        .input = "", .environment = {{"CANDELA_INSTRUCTION_SET", "baseline"}}, .directory = {}};
+    const CommandSetup slow{.environment = {{"CANDELA_INSTRUCTION_SET", "baseline"}}};
     const CommandResult seen = talk_to_candela(words, {}, slow);
     INFO(seen.out.substr(0, 1000));
     CHECK(seen.exit_code == 0);

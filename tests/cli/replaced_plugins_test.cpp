@@ -25,25 +25,12 @@ struct Copy {
     /// Renders the default scene, which needs shape/cube, with the folder given by an option or by the
     /// environment.
     CommandResult render(bool is_named, const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> words{"render", "-o", (folder.parent_path() / "a.png").string()};
-        words.insert(words.end(), more.begin(), more.end());
-        CommandSetup setup;
-        if (is_named) {
-            words.insert(words.end(), {"--plugin-dir", folder.string()});
-        } else {
-            setup.environment.emplace_back("CANDELA_PLUGIN_PATH", folder.string());
-        }
-        return run_candela(words, setup);
+        return run(joined({"render", "-o", (folder.parent_path() / "a.png").string()}, more), is_named);
     }
-    std::string doctor(bool is_named) const {
-        CommandSetup setup;
-        std::vector<std::string> words{"plugin", "doctor"};
-        if (is_named) {
-            words.insert(words.end(), {"--plugin-dir", folder.string()});
-        } else {
-            setup.environment.emplace_back("CANDELA_PLUGIN_PATH", folder.string());
-        }
-        return run_candela(words, setup).out;
+    std::string doctor(bool is_named) const { return run({"plugin", "doctor"}, is_named).out; }
+    CommandResult run(const Words& words, bool is_named) const {
+        if (is_named) return run_candela(joined(words, {"--plugin-dir", folder.string()}));
+        return run_candela(words, {.environment = {{"CANDELA_PLUGIN_PATH", folder.string()}}});
     }
 
     fs::path folder, library, manifest;

@@ -44,12 +44,8 @@ bool is_part(const std::vector<std::string>& lines, const std::vector<std::strin
 /// The command with only the shipped plugins.
 CommandResult schema(const std::vector<std::string>& arguments) {
     const fs::path nowhere = scratch_directory();
-    std::vector<std::string> words = {"schema"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    return run_candela(words,
-                       {.input = "",
-                        .environment = {{"XDG_DATA_HOME", nowhere.string()}, {"CANDELA_PLUGIN_PATH", ""}},
-                        .directory = {}});
+    return run_candela(joined({"schema"}, arguments),
+                       {.environment = {{"XDG_DATA_HOME", nowhere.string()}, {"CANDELA_PLUGIN_PATH", ""}}});
 }
 
 }  // namespace

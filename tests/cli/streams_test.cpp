@@ -10,6 +10,7 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 import candela.core;
@@ -18,14 +19,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string k_scene =
-    "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 16\nheight = 16\n"
-    "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n"
-    "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n";
+const std::string k_scene = k_start + image_table(16, 16) + k_models + k_light;
 
 CommandResult in(const Folder& directory, const std::vector<std::string>& words,
                  const std::string& input = "", const std::string& columns = "") {
-    CommandSetup setup{.input = input, .environment = {}, .directory = directory};
+    CommandSetup setup{.input = input, .directory = directory};
     if (!columns.empty()) setup.environment.emplace_back("COLUMNS", columns);
     return run_candela(words, setup);
 }
@@ -41,8 +39,7 @@ std::size_t widest_line(const std::string& text) {
 }  // namespace
 
 TEST_CASE("a scene can come from standard input, with paths relative to the current folder") {
-    const Folder d;
-    d.write("cube.toml", "[[object]]\ntype = \"cube\"\n");
+    const Folder d({{"cube.toml", "[[object]]\ntype = \"cube\"\n"}});
     const std::string scene = "include = [\"cube.toml\"]\n" + k_scene;
     for (const char* const name : {"-", "/dev/stdin", "/dev/fd/0"}) {
         INFO(name);
@@ -50,9 +47,9 @@ TEST_CASE("a scene can come from standard input, with paths relative to the curr
         CHECK(in(d, {"render", name, "-o", "a.ppm"}, scene).exit_code == 0);
         CHECK(fs::remove(d / "a.ppm"));
     }
-    expect(run_program({"sh", "-c", "cat | " CANDELA_TEST_COMMAND " check -"},
-                       {.input = scene, .environment = {}, .directory = d}),
-           0);
+    expect(
+        run_program({"sh", "-c", "cat | " CANDELA_TEST_COMMAND " check -"}, {.input = scene, .directory = d}),
+        0);
     // A part of the scene is in a file, another comes from the pipe.
     CHECK(holds(in(d, {"check", "cube.toml", "-"}, k_scene).out, "1, 12 triangles"));
 }
@@ -87,14 +84,9 @@ TEST_CASE("a picture never overwrites its inputs, under whatever name") {
     fs::remove(d / "mesh.ppm");
     fs::create_symlink("mesh.obj", d / "mesh.ppm");
     fs::create_symlink("sky.ppm", d / "link.ppm");
-    const std::string scene =
-        "include = [\"part.ppm\"]\n" + k_scene + "[[object]]\ntype = \"mesh\"\nfile = \"mesh.obj\"\n";
-    const fs::path file = d.write("scene.ppm", scene + "[image2]\n");
-    write_file(
-        file,
-        "include = [\"part.ppm\"]\nversion = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n"
-        "[image]\nwidth = 16\nheight = 16\nenvironment = \"sky.ppm\"\n[shading]\nmodel = \"phong\"\n"
-        "[reflection]\nmodel = \"phong\"\n[[object]]\ntype = \"mesh\"\nfile = \"mesh.obj\"\n");
+    d.write("scene.ppm", "include = [\"part.ppm\"]\n" + k_start + image_table(16, 16) +
+                             "environment = \"sky.ppm\"\n" + k_models +
+                             "[[object]]\ntype = \"mesh\"\nfile = \"mesh.obj\"\n");
     for (const char* const name : {"sky.ppm", "./sky.ppm", "link.ppm", "part.ppm", "mesh.ppm", "scene.ppm"}) {
         const std::string before = d.read(name);
         const CommandResult result = in(d, {"render", "scene.ppm", "-o", name});
@@ -145,9 +137,8 @@ TEST_CASE("list, describe and help fit the width in COLUMNS, or 80 columns") {
 }
 
 TEST_CASE("describe gives the allowed values, their unit, and whether they are required") {
-    const std::string out = run_candela({"describe", "light/spot"},
-                                        {.input = "", .environment = {{"COLUMNS", "120"}}, .directory = {}})
-                                .out;
+    const std::string out =
+        run_candela({"describe", "light/spot"}, {.environment = {{"COLUMNS", "120"}}}).out;
     INFO(out);
     CHECK(holds(out, "  position             three numbers, a position in metres; required\n"));
     CHECK(holds(out, "  inner_angle          a number, at least 0 and less than 90; default 15 deg\n"));
@@ -156,10 +147,7 @@ TEST_CASE("describe gives the allowed values, their unit, and whether they are r
 
 TEST_CASE("Ctrl-C at a question leaves the shell's prompt a line of its own") {
     const Folder d;
-    const std::string file = d.write("scene.toml",
-                                     "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
-                                     "0]\n[[object]]\ntype = \"cube\"\n")
-                                 .string();
+    const std::string file = d.write("scene.toml", k_start + k_cube).string();
     const CommandResult result =
         talk_to_candela({"render", file, "-o", (d / "a.png").string()}, {{"[Y/n] ", "\x03"}});
     CHECK(result.exit_code == 128 + SIGINT);

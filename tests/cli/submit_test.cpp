@@ -34,15 +34,11 @@ fps = 12
 
 constexpr const char* k_job = "frames/.candela/jobs/%04d.png";
 
-Folder with_scene() {
-    const Folder directory;
-    directory.write("scene.toml", scene_text());
-    return directory;
-}
+Folder with_scene() { return {{"scene.toml", scene_text()}}; }
 
 CommandResult candela(const Folder& directory, const std::vector<std::string>& words,
                       const std::string& path = "") {
-    CommandSetup setup{.input = "", .environment = {}, .directory = directory};
+    CommandSetup setup{.directory = directory};
     if (!path.empty()) setup.environment.emplace_back("PATH", path);
     return run_candela(words, setup);
 }
@@ -54,9 +50,8 @@ json status_of(const Folder& directory) {
 
 std::string shell(const std::string& command, const fs::path& directory,
                   std::vector<std::pair<std::string, std::string>> environment = {}) {
-    const CommandResult result =
-        run_program({"/bin/sh", "-c", command},
-                    {.input = "", .environment = std::move(environment), .directory = directory});
+    const CommandResult result = run_program({"/bin/sh", "-c", command},
+                                             {.environment = std::move(environment), .directory = directory});
     INFO(command << '\n' << result.err);
     CHECK(result.exit_code == 0);
     return result.out;
@@ -221,7 +216,7 @@ TEST_CASE("a task is running while its process exists, and failed if that has en
             0);
     RunningProgram task({CANDELA_TEST_COMMAND, "--task", directory / k_job / "0..11.json", "animate",
                          "scene.toml", "--width", "3000", "--height", "3000"},
-                        {.input = "", .environment = {}, .directory = directory});
+                        {.directory = directory});
     wait_until([&] { return fs::exists(directory / k_job / "0..11.json"); });
     task.send(SIGSTOP);
     json status = status_of(directory);
@@ -258,7 +253,7 @@ TEST_CASE("twenty kills at any moment leave a job that the same command complete
         CANDELA_TEST_COMMAND, "submit", "scene.toml", "--jobs", "2", "--chunk", "2"};
     for (int i = 0; i < 20; ++i) {
         // Its tasks are in its process group, and outlive it every other time.
-        CommandSetup setup{.input = "", .environment = {}, .directory = directory};
+        CommandSetup setup{.directory = directory};
         setup.prepare = [] { ::setpgid(0, 0); };
         RunningProgram job(submit, setup);
         std::this_thread::sleep_for(std::chrono::milliseconds(random() % 120));
@@ -270,7 +265,7 @@ TEST_CASE("twenty kills at any moment leave a job that the same command complete
         static_cast<void>(job.wait());
         if (fs::exists(directory / k_job / "plan.json")) CHECK(status_of(directory)["tasks"].size() == 6);
     }
-    expect(run_program(submit, {.input = "", .environment = {}, .directory = directory}), 0);
+    expect(run_program(submit, {.directory = directory}), 0);
     CHECK(status_of(directory)["done"] == 6);
     check_frames(directory);
     CHECK(unfinished_in(directory) == 0);
@@ -280,7 +275,7 @@ TEST_CASE("submit, told to end, ends its tasks") {
     const Folder directory = with_scene();
     RunningProgram job({CANDELA_TEST_COMMAND, "submit", "scene.toml", "--width", "4000", "--height", "4000",
                         "--jobs", "2", "--chunk", "6"},
-                       {.input = "", .environment = {}, .directory = directory});
+                       {.directory = directory});
     const fs::path journal = directory / k_job / "6..11.json";
     wait_until([&] { return fs::exists(journal); });
     const int task = json::parse(read_file(journal))["pid"];

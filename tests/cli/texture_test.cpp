@@ -28,8 +28,7 @@ CommandResult render(const std::string& texture, const Folder& directory, const 
 }  // namespace
 
 TEST_CASE("mistakes in a texture are reported at its place") {
-    const Folder d;
-    d.write("wood.ppm", k_image);
+    const Folder d({{"wood.ppm", k_image}});
     REQUIRE(::mkfifo((d / "pipe.ppm").c_str(), 0600) == 0);
     expect(render("color_texture = \"wool.ppm\"", d), 3,
            {"scene.toml:11:17: error: 'wool.ppm' does not exist", "did you mean 'wood.ppm'?"});

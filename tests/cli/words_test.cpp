@@ -7,25 +7,22 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace {
 
 /// A scene with one more line in one of its tables, which is identified by the preceding text.
 std::string scene_with(const std::string& table, const std::string& line) {
-    std::string text =
-        "version = 1\n[room]\nwidth = 20\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, "
-        "0]\n[image]\nwidth = 8\n"
-        "height = 8\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n[[light]]\n"
-        "type = \"point\"\nposition = [1, 1, 3]\n[[object]]\nname = \"ball\"\ntype = "
-        "\"cube\"\n[object.material]\nks = 0.2\n";
+    std::string text = k_start + "[room]\nwidth = 20\n" + image_table(8, 8) + k_models + k_light + k_cube +
+                       "[object.material]\nks = 0.2\n";
     if (table.empty()) return line + "\n" + text;
     const std::size_t at = text.find(table + "\n") + table.size() + 1;
     return text.insert(at, line + "\n");
 }
 
 CommandResult checked(const std::string& text) {
-    return run_candela({"check", "-"}, {.input = text, .environment = {}, .directory = scratch_directory()});
+    return run_candela({"check", "-"}, {.input = text, .directory = scratch_directory()});
 }
 
 struct Said {
@@ -122,16 +119,16 @@ TEST_CASE("a colour of zeros and ones causes a warning with its values in 0 to 2
     const CommandResult film =
         expect(checked(scene_with("[[object]]", "color = [2, 2, 2]") +
                        "[animation]\nframes = 4\nfps = 1\n[[animation.track]]\n"
-                       "path = \"object.ball.color\"\nkeys = [[0, [0, 0, 0]], [3, [3, 3, 3]]]\n"),
+                       "path = \"object.box.color\"\nkeys = [[0, [0, 0, 0]], [3, [3, 3, 3]]]\n"),
                0);
     CHECK_FALSE(holds(film.err, "almost black"));
 }
 
 TEST_CASE("the error about a light or an observer inside an object says how to allow it") {
     expect(checked(scene_with("[[object]]", "position = [1, 1, 3]")), 3,
-           {"is inside object 'ball'", "encloses = true"});
+           {"is inside object 'box'", "encloses = true"});
     const CommandResult observer = checked(scene_with("[[object]]", "position = [0, 0, 4]"));
-    CHECK(holds(observer.err, "the observer is inside object 'ball'"));
+    CHECK(holds(observer.err, "the observer is inside object 'box'"));
     CHECK(holds(observer.err, "encloses = true"));
 }
 
@@ -157,8 +154,7 @@ TEST_CASE("options of other programs are answered with those of the verb") {
              Typed{{"render", "-j4"}, "did you mean '--threads'?"},
              Typed{{"render", "--format", "png"}, "extension"},
          }) {
-        const CommandResult result =
-            run_candela(typed.words, {.input = "", .environment = {}, .directory = scratch_directory()});
+        const CommandResult result = run_candela(typed.words, {.directory = scratch_directory()});
         INFO(typed.words[1] << ": " << result.err);
         CHECK(result.exit_code == 2);
         CHECK(holds(result.err, typed.hint));
@@ -173,9 +169,7 @@ TEST_CASE("quiet may be given twice, by a user and by a program") {
 }
 
 TEST_CASE("the models in the help of candela plot can be plotted as printed") {
-    std::string help =
-        run_candela({"plot", "--help"}, {.input = "", .environment = {{"COLUMNS", "500"}}, .directory = {}})
-            .out;
+    std::string help = run_candela({"plot", "--help"}, {.environment = {{"COLUMNS", "500"}}}).out;
     int plotted = 0;
     for (const std::string kind : {"reflection/", "light/"}) {
         for (std::size_t at = help.find(kind); at != std::string::npos; at = help.find(kind, at + 1)) {

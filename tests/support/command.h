@@ -17,11 +17,19 @@ struct CommandResult {
 };
 
 struct CommandSetup {
-    std::string input;                                             // on stdin, which is not a terminal
-    std::vector<std::pair<std::string, std::string>> environment;  // added to this process's
-    std::filesystem::path directory;  // working directory; the scratch directory if empty
-    std::function<void()> prepare{};  // called in the child before exec; may only make system calls
+    std::string input{};                                             // on stdin, which is not a terminal
+    std::vector<std::pair<std::string, std::string>> environment{};  // added to this process's
+    std::filesystem::path directory{};  // working directory; the scratch directory if empty
+    std::function<void()> prepare{};    // called in the child before exec; may only make system calls
 };
+
+using Words = std::vector<std::string>;
+
+/// The words of a command followed by more of them.
+inline Words joined(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
 
 /// Runs `candela arguments…` of the build tree.
 CommandResult run_candela(const std::vector<std::string>& arguments, const CommandSetup& setup = {});

@@ -37,13 +37,12 @@ class Folder {
                       const Environment& environment = {}) const {
         std::istringstream in(line);
         std::vector<std::string> words{std::istream_iterator<std::string>(in), {}};
-        words.insert(words.end(), more.begin(), more.end());
-        return run_words(words, environment);
+        return run_words(joined(std::move(words), more), environment);
     }
     /// The same, with words that may contain spaces.
     CommandResult run_words(const std::vector<std::string>& words,
                             const Environment& environment = {}) const {
-        return run_candela(words, {.input = "", .environment = environment, .directory = path_});
+        return run_candela(words, {.environment = environment, .directory = path_});
     }
 
   private:

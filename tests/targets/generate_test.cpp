@@ -38,18 +38,15 @@ object = [
 )";
 
 void generate(const std::vector<std::string>& arguments) {
-    std::vector<std::string> words{"generate"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    succeeded(run_candela(words));
+    succeeded(run_candela(joined({"generate"}, arguments)));
 }
 
 /// Compiles with every warning an error, and expects none.
 void require_compiles(const std::vector<std::string>& compiler, const fs::path& source,
                       const fs::path& program) {
-    std::vector<std::string> words = compiler;
-    words.insert(words.end(), {"-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", source.string(), "-o",
-                               program.string()});
-    const CommandResult result = run_program(words);
+    const CommandResult result =
+        run_program(joined(compiler, {"-std=c++17", "-O1", "-Wall", "-Wextra", "-Werror", source.string(),
+                                      "-o", program.string()}));
     INFO(fmt::format("{}\n{}", compiler.front(), result.err.substr(0, 2000)));
     REQUIRE(result.exit_code == 0);
     CHECK(result.err.empty());
@@ -118,9 +115,9 @@ TEST_CASE("generate: the C++ program of a scene with many models runs clean unde
         directory / "scene.cpp", directory / "scene");
     for (const auto& models :
          {std::vector<std::string>{}, {"flat", "ward"}, {"gouraud", "ggx"}, {"derivative", "toon"}}) {
-        std::vector<std::string> words{(directory / "scene").string(), (directory / "scene.png").string()};
-        words.insert(words.end(), models.begin(), models.end());
-        expect(run_program(words), 0);
+        expect(
+            run_program(joined({(directory / "scene").string(), (directory / "scene.png").string()}, models)),
+            0);
     }
 }
 
@@ -149,9 +146,8 @@ TEST_CASE("generate: --models adds models, and the C++ program switches to them"
               "--width", "64", "--height", "64"});
     require_compiles({"g++"}, directory / "scene.cpp", directory / "scene");
     const auto image = [&](const std::vector<std::string>& models) {
-        std::vector<std::string> words{(directory / "scene").string(), (directory / "scene.ppm").string()};
-        words.insert(words.end(), models.begin(), models.end());
-        succeeded(run_program(words));
+        succeeded(run_program(
+            joined({(directory / "scene").string(), (directory / "scene.ppm").string()}, models)));
         return read_file(directory / "scene.ppm");
     };
     const std::string own = image({});
@@ -174,8 +170,7 @@ TEST_CASE("generate: programs have help, and refuse unknown arguments") {
     require_compiles({"g++"}, directory / "one/scene.cpp", directory / "one/scene");
     const auto run = [&](const std::string& program, std::vector<std::string> words) {
         words.insert(words.begin(), (directory / program).string());
-        CommandSetup setup;
-        setup.directory = directory;
+        CommandSetup setup{.directory = directory};
         return run_program(words, setup);
     };
     const CommandResult help = expect_out(
@@ -226,9 +221,7 @@ TEST_CASE("generate: errors name the problem and the remedy") {
     const fs::path directory = scratch_directory();
     const auto expect_error = [&](const std::vector<std::string>& arguments, int code,
                                   const std::string& message) {
-        std::vector<std::string> words{"generate"};
-        words.insert(words.end(), arguments.begin(), arguments.end());
-        expect(run_candela(words), code, {message});
+        expect(run_candela(joined({"generate"}, arguments)), code, {message});
     };
     const std::string out = (directory / "program").string();
     expect_error({}, 2, "--target is missing");

@@ -10,6 +10,7 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -57,9 +58,7 @@ std::string quoted(const std::string& text) { return nlohmann::json(text).dump(-
 /// TOML has \u escapes like JSON, except for surrogates, which do not occur here.
 std::string scene_with(const std::vector<std::string>& names) {
     std::string text =
-        "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 48\nheight = "
-        "32\n"
-        "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"lambert\"\n";
+        k_start + image_table(48, 32) + "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"lambert\"\n";
     for (std::size_t i = 0; i < names.size(); ++i) {
         text += fmt::format("[[light]]\nname = {}\ntype = \"ambient\"\nintensity = 0.01\n",
                             quoted("light " + names[i]));

@@ -27,11 +27,9 @@ void replace_in(const fs::path& file, const std::string& from, const std::string
 /// Runs in an environment with additional variables.
 CommandResult verify_where(std::vector<std::pair<std::string, std::string>> environment,
                            const std::vector<std::string>& arguments) {
-    std::vector<std::string> words{"verify"};
-    words.insert(words.end(), arguments.begin(), arguments.end());
     // A warning here would reach users.
     environment.emplace_back("CXXFLAGS", "-Werror");
-    return run_candela(words, {.input = "", .environment = std::move(environment), .directory = {}});
+    return run_candela(joined({"verify"}, arguments), {.environment = std::move(environment)});
 }
 
 CommandResult verify(const std::vector<std::string>& arguments) { return verify_where({}, arguments); }
@@ -42,13 +40,9 @@ const std::vector<std::string> k_small = {"--width", "160", "--height", "120"};
 CommandResult verify_changed(const std::string& target, const std::string& file, const std::string& from,
                              const std::string& to) {
     const fs::path program = scratch_directory() / "program";
-    std::vector<std::string> words{"generate", "--target", target, "-o", program.string()};
-    words.insert(words.end(), k_small.begin(), k_small.end());
-    succeeded(run_candela(words));
+    succeeded(run_candela(joined({"generate", "--target", target, "-o", program.string()}, k_small)));
     if (!from.empty()) replace_in(program / file, from, to);
-    words = {"--target", target, "--program", program.string()};
-    words.insert(words.end(), k_small.begin(), k_small.end());
-    return verify(words);
+    return verify(joined({"--target", target, "--program", program.string()}, k_small));
 }
 
 }  // namespace
@@ -126,15 +120,10 @@ namespace {
 /// A plain grey picture from every program of this target.
 CommandResult verify_grey(const std::vector<std::string>& more) {
     const fs::path program = scratch_directory() / "grey";
-    std::vector<std::string> words{"generate", "--target", "cpp", "-o", program.string()};
-    words.insert(words.end(), k_small.begin(), k_small.end());
-    succeeded(run_candela(words));
+    succeeded(run_candela(joined({"generate", "--target", "cpp", "-o", program.string()}, k_small)));
     replace_in(program / "scene.cpp", "255.0f * encoded(std::min(std::max(x, 0.0f), 1.0f)) + 0.5f",
                "127.0f + 0 * x");
-    words = {"--target", "cpp", "--program", program.string()};
-    words.insert(words.end(), k_small.begin(), k_small.end());
-    words.insert(words.end(), more.begin(), more.end());
-    return verify(words);
+    return verify(joined(joined({"--target", "cpp", "--program", program.string()}, k_small), more));
 }
 
 }  // namespace
@@ -147,13 +136,12 @@ TEST_CASE("verify: a tolerance of 0 does not make every pixel an edge", "[progra
 TEST_CASE("verify: a program that draws nothing does not pass with a picture of an earlier report",
           "[programs]") {
     const fs::path directory = scratch_directory(), report = directory / "report", program = report / "cpp";
-    std::vector<std::string> words{"--target", "cpp", "--report", report.string()};
-    words.insert(words.end(), k_small.begin(), k_small.end());
+    const Words words = joined({"--target", "cpp", "--report", report.string()}, k_small);
     REQUIRE(verify(words).exit_code == 0);
     REQUIRE(fs::exists(report / "cpp.png"));
     write_file(program / "scene.cpp", "int main() {}\n");
-    words.insert(words.end(), {"--program", program.string()});
-    expect_out(verify(words), 4, {"ended without writing a picture"});
+    expect_out(verify(joined(words, {"--program", program.string()})), 4,
+               {"ended without writing a picture"});
     CHECK_FALSE(fs::exists(report / "cpp.png"));
     CHECK(holds(read_file(report / "index.html"), "ended without writing a picture"));
 }
@@ -173,9 +161,7 @@ TEST_CASE("verify: if hardly a pixel is away from edges, there is no verdict, bu
 
 TEST_CASE("verify: --json has the figures, and the number of pixels that the verdict rests on",
           "[programs]") {
-    std::vector<std::string> words{"--target", "cpp", "--json"};
-    words.insert(words.end(), k_small.begin(), k_small.end());
-    const CommandResult result = succeeded(verify(words));
+    const CommandResult result = succeeded(verify(joined({"--target", "cpp", "--json"}, k_small)));
     const auto json = nlohmann::json::parse(result.out);
     REQUIRE(json.size() == 1);
     CHECK(json[0].at("target") == "cpp");

@@ -100,7 +100,7 @@ TEST_CASE("verify: interrupted at any moment, it leaves nothing behind", "[whole
     // Not in the scratch folder, whose path is too long for a browser's sockets.
     std::string temporary = (fs::temp_directory_path() / "whole-XXXXXX").string();
     REQUIRE(::mkdtemp(temporary.data()) != nullptr);
-    const CommandSetup setup{.input = "", .environment = {{"TMPDIR", temporary}}, .directory = {}};
+    const CommandSetup setup{.environment = {{"TMPDIR", temporary}}};
     int interrupted = 0;
     for (int i = 0; i < 12; ++i) {
         std::vector<std::string> words{

@@ -7,13 +7,10 @@
 #include "console/diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace {
-
-constexpr const char* k_start =
-    "version = 1\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"lambert\"\n"
-    "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n";
 
 struct Result {
     bool is_valid = false;
@@ -35,7 +32,7 @@ Result checked(const std::string& tables, int faces_of_the_box = 6) {
     const auto directory = scratch_directory();
     write_file(directory / "box.obj", box_obj(faces_of_the_box));
     candela::SceneRequest request;
-    request.files = {write_file(directory / "scene.toml", k_start + tables)};
+    request.files = {write_file(directory / "scene.toml", k_start + k_models + tables)};
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(request, test_registry(), diagnostics);
     if (draft) candela::build(*draft, test_registry(), diagnostics);

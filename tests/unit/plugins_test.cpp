@@ -2,7 +2,6 @@
 #include <catch2/catch_test_macros.hpp>
 #include <cstdlib>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -12,6 +11,7 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/plugins.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -23,16 +23,6 @@ namespace {
 const fs::path k_libraries = CANDELA_TEST_LIBRARIES;
 const fs::path k_shipped = CANDELA_TEST_PLUGINS;
 const fs::path k_plugins = fs::path(CANDELA_TEST_SOURCE) / "plugins";
-
-/// The message of the Error that an action throws.
-std::string message_of(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const candela::Error& error) {
-        return error.what();
-    }
-    return "";
-}
 
 /// A directory with `library` as reflection-NAME.so, and the manifest of Phong with that name.
 fs::path directory_with(const fs::path& library, const std::string& name) {
@@ -47,7 +37,7 @@ fs::path directory_with(const fs::path& library, const std::string& name) {
 /// The message with which an instance of the model is refused; everything else must still work.
 std::string refusal(const fs::path& directory, const std::string& name) {
     Registry registry({directory, k_shipped});
-    const std::string sentence = message_of([&] {
+    const std::string sentence = message_of<candela::Error>([&] {
         registry.create<candela::ReflectionModel>(name, registry.parameters(PluginKind::reflection, name),
                                                   candela::ColorEncoding::none);
     });
@@ -147,7 +137,8 @@ TEST_CASE("the search path is --plugin-dir, CANDELA_PLUGIN_PATH, the user's data
 
 TEST_CASE("the message on an unknown name lists what is installed and suggests the nearest") {
     Registry registry({k_shipped});
-    const std::string sentence = message_of([&] { registry.require(PluginKind::reflection, "blin-phong"); });
+    const std::string sentence =
+        message_of<candela::Error>([&] { registry.require(PluginKind::reflection, "blin-phong"); });
     CHECK(holds(sentence, "no reflection plugin is called 'blin-phong'"));
     CHECK(holds(sentence, "did you mean 'blinn-phong'?"));
     CHECK(holds(sentence, "half-lambert"));
@@ -275,7 +266,7 @@ TEST_CASE("a plugin's exception becomes an error that names the plugin") {
     Registry registry({k_libraries, k_shipped});
     candela::ParamSet values = registry.parameters(PluginKind::reflection, "throwing");
     values.set("kd", 0.0);
-    CHECK(message_of([&] {
+    CHECK(message_of<candela::Error>([&] {
               registry.create<candela::ReflectionModel>("throwing", values, candela::ColorEncoding::none);
           }) == "plugin reflection/throwing: no model without light");
 
@@ -290,8 +281,7 @@ TEST_CASE("a plugin's exception becomes an error that names the plugin") {
             request.settings.clear();
             request.files = {write_file(
                 scratch_directory() / "scene.toml",
-                "version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[shading]\n"
-                "model = \"phong\"\n[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"cube\"\n")};
+                k_start + "[shading]\nmodel = \"phong\"\n[[light]]\ntype = \"ambient\"\n" + k_cube)};
         }
         const auto scene = candela::read_scene(request, registry, diagnostics);
         INFO(diagnostics_text(diagnostics, false));
@@ -301,7 +291,7 @@ TEST_CASE("a plugin's exception becomes an error that names the plugin") {
         candela::Film film(64, 64, candela::PixelType::byte, candela::ColorEncoding::srgb);
         for (const int threads : {1, 4}) {
             const std::string sentence =
-                message_of([&] { candela::render(*compiled, film, {.threads = threads}); });
+                message_of<candela::Error>([&] { candela::render(*compiled, film, {.threads = threads}); });
             CHECK(sentence ==
                   (is_point ? "plugin reflection/throwing: out of photons"
                             : "plugin reflection/throwing threw an object that is not a std::exception"));
@@ -312,7 +302,7 @@ TEST_CASE("a plugin's exception becomes an error that names the plugin") {
 TEST_CASE("only what a scene names is loaded") {
     const CommandResult traced =
         succeeded(run_candela({"render", "-o", (scratch_directory() / "a.png").string()},
-                              {.input = "", .environment = {{"LD_DEBUG", "files"}}, .directory = {}}));
+                              {.environment = {{"LD_DEBUG", "files"}}}));
     for (const char* const unused :
          {"OpenImageIO", "shape-mesh", "half-lambert", "gouraud", "teapot", "spot"}) {
         CHECK_FALSE(holds(traced.err, unused));

@@ -11,6 +11,7 @@
 #include "console/diagnostics_text.h"
 #include "support/command.h"
 #include "support/plugins.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 using candela::Diagnostic;
@@ -20,12 +21,7 @@ using candela::Vec3;
 
 namespace {
 
-constexpr const char* k_observer = "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n";
-constexpr const char* k_models = "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
-constexpr const char* k_light = "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n";
-constexpr const char* k_cube = "[[object]]\nname = \"box\"\ntype = \"cube\"\n";
-
-std::string whole() { return std::string("version = 1\n") + k_observer + k_models + k_light + k_cube; }
+std::string whole() { return k_start + k_models + k_light + k_cube; }
 
 struct Result {
     std::optional<Scene> scene;
@@ -169,7 +165,7 @@ TEST_CASE("a wrong type is an error that names the found and the expected type")
     check_error(whole() + "type2 = 1979-05-27\n", 15, 1, "unknown key 'type2'");
     check_error(whole() + "size = 1979-05-27\n", 15, 8, "'size' is a date or time");
     check_error(whole() + "material = 3\n", 15, 12, "expected the table [object.material]");
-    check_error(std::string("version = 1\nlight = 3\n") + k_observer + k_models, 2, 1,
+    check_error("version = 1\nlight = 3\n" + k_observer + k_models, 2, 1,
                 "expected tables, each headed [[light]]");
     check_error("version = 1.0\n" + whole().substr(12), 1, 11, "expected the integer 1");
 }
@@ -182,8 +178,7 @@ TEST_CASE("a value outside its range is an error that names the range") {
     check_error(whole() + "[object.material]\nkd = [0.1, 0.2, 1.5]\n", 16, 6, "0 to 1");
     check_error(whole() + "[object.material]\nshininess = -1\n", 16, 13, "at least 0");
     check_error(whole() + "size = 1e-50\n", 15, 8, "greater than 0");
-    check_error(std::string("version = 1\n") + k_observer + "fov = 179.9999999999\n" + k_models, 5, 7,
-                "less than 180");
+    check_error(k_start + "fov = 179.9999999999\n" + k_models, 5, 7, "less than 180");
     check_error(whole() + "size = nan\n", 15, 8, "nan");
     check_error(whole() + "size = inf\n", 15, 8, "not a usable number");
     check_error(whole() + "size = 1e39\n", 15, 8, "too large");
@@ -192,7 +187,7 @@ TEST_CASE("a value outside its range is an error that names the range") {
     check_error(whole() + "[image]\nwidth = 65537\n", 16, 9, "1 to 65536");
     check_error(whole() + "[image]\ncolor_management = \"sRGB\"\n", 16, 20, "did you mean 'srgb'?");
     check_error(whole() + "[room]\nheight = 0\n", 16, 10, "greater than 0");
-    check_error(std::string("version = 1\n") + k_observer + "fov = 180\n" + k_models, 5, 7, "less than 180");
+    check_error(k_start + "fov = 180\n" + k_models, 5, 7, "less than 180");
 }
 
 TEST_CASE("values just inside their range are accepted") {
@@ -235,8 +230,8 @@ TEST_CASE("relations between two parameters are checked") {
 }
 
 TEST_CASE("a missing required key or table is an error") {
-    check_error(std::string(k_observer) + k_models + k_light + k_cube, 0, 0, "version = 1");
-    check_error(std::string("version = 1\n") + k_models + k_light + k_cube, 0, 0, "no [observer]");
+    check_error(k_observer + k_models + k_light + k_cube, 0, 0, "version = 1");
+    check_error("version = 1\n" + k_models + k_light + k_cube, 0, 0, "no [observer]");
     check_error("version = 1\n[observer]\nposition = [0, 0, 1]\n", 2, 2, "[observer] has no 'look_at'");
     check_error(whole() + "[[light]]\ntype = \"point\"\n", 15, 1, "[[light]] number 1 has no 'position'");
     check_error(whole() + "[[object]]\nsize = 2\n", 15, 1, "has no 'type'");
@@ -249,9 +244,8 @@ TEST_CASE("an unknown plugin is an error with a suggestion") {
     check_error(whole() + "[[light]]\ntype = \"points\"\n", 16, 8, "did you mean 'point'?");
     check_error(whole() + "shading = \"fong\"\n", 15, 11, "no shading plugin is called 'fong'");
     check_error(whole() + "reflection = \"lambret\"\n", 15, 14, "did you mean 'lambert'?");
-    check_error(std::string("version = 1\n") + k_observer +
-                    "[shading]\nmodel = \"smooth\"\n[reflection]\nmodel = \"phong\"\n" + k_cube,
-                6, 9, "no shading plugin is called 'smooth'");
+    check_error(k_start + "[shading]\nmodel = \"smooth\"\n[reflection]\nmodel = \"phong\"\n" + k_cube, 6, 9,
+                "no shading plugin is called 'smooth'");
 }
 
 TEST_CASE("an empty name is not a model, nor a request for the default") {
@@ -265,7 +259,7 @@ TEST_CASE("an empty name is not a model, nor a request for the default") {
 TEST_CASE("a value in place of a table is reported once, without its missing keys") {
     check_error("version = 1\nobserver = 3\n", 2, 1, "expected the table [observer]");
     check_error("version = 1\n[[observer]]\nposition = [0, 0, 1]\n", 2, 3, "there may be only one");
-    check_error(std::string("version = 1\nshading = 3\n") + k_observer, 2, 1, "expected the table [shading]");
+    check_error("version = 1\nshading = 3\n" + k_observer, 2, 1, "expected the table [shading]");
 }
 
 TEST_CASE("an ill-defined view is an error") {
@@ -293,9 +287,8 @@ TEST_CASE("TOML's own errors have a position") {
 TEST_CASE("several files are one scene; duplicates of what may occur once are reported with both positions") {
     const auto directory = scratch_directory();
     const auto lights = write_file(directory / "lights.toml", k_light);
-    const auto objects = write_file(directory / "objects.toml", std::string("version = 1\n") + k_cube);
-    const auto rest =
-        write_file(directory / "rest.toml", std::string("version = 1\n") + k_observer + k_models);
+    const auto objects = write_file(directory / "objects.toml", "version = 1\n" + k_cube);
+    const auto rest = write_file(directory / "rest.toml", k_start + k_models);
     candela::SceneRequest request;
     request.files = {lights, objects, rest};
     const Result result = read(request);
@@ -318,7 +311,7 @@ TEST_CASE("include adds other files, relative to the file that names them, and d
     write_file(directory / "loop.toml", "include = [\"loop.toml\"]\nversion = 1\n");
     candela::SceneRequest request;
     request.files = {write_file(directory / "scene.toml", "include = [\"parts/lights.toml\"]\nversion = 1\n" +
-                                                              std::string(k_observer) + k_models + k_cube)};
+                                                              k_observer + k_models + k_cube)};
     CHECK(read(request).scene->lights.size() == 1);
     request.files = {directory / "loop.toml"};
     CHECK(holds(read(request).text, "includes itself"));
@@ -389,7 +382,7 @@ TEST_CASE("invalid settings are errors that name their flag") {
 }
 
 TEST_CASE("R13: if no model is named, the user is asked, once for both") {
-    const std::string scene = std::string("version = 1\n") + k_observer + k_light + k_cube;
+    const std::string scene = k_start + k_light + k_cube;
     int asked = 0;
     candela::SceneRequest request;
     request.ask = [&](const std::string& question) {
@@ -414,7 +407,7 @@ TEST_CASE("R13: if no model is named, the user is asked, once for both") {
     request.shading = {"flat"};
     request.reflection = {"lambert"};
     CHECK(read(scene, request).scene);
-    CHECK(read(std::string("version = 1\n") + k_observer, {}).scene);
+    CHECK(read(k_start, {}).scene);
 }
 
 TEST_CASE("a material for another model is an error, unless the model came from the command line") {
@@ -435,10 +428,10 @@ TEST_CASE("a material for another model is an error, unless the model came from 
 }
 
 TEST_CASE("a scene without lights or objects is a scene, with a warning") {
-    const Result dark = read(std::string("version = 1\n") + k_observer + k_models + k_cube);
+    const Result dark = read(k_start + k_models + k_cube);
     CHECK(dark.scene);
     CHECK(holds(dark.text, "no lights"));
-    const Result empty = read(std::string("version = 1\n") + k_observer);
+    const Result empty = read(k_start);
     CHECK(empty.scene);
     CHECK(holds(empty.text, "no objects"));
 }

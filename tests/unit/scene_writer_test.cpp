@@ -12,6 +12,7 @@
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/random_scene.h"
+#include "support/scene_tables.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -49,12 +50,7 @@ Scene written_and_read(const Scene& scene, const fs::path& directory,
 }
 
 std::string refusal(const Scene& scene) {
-    try {
-        candela::scene_text(scene);
-    } catch (const candela::Error& problem) {
-        return problem.what();
-    }
-    return "";
+    return message_of<candela::Error>([&] { candela::scene_text(scene); });
 }
 
 }  // namespace
@@ -222,11 +218,7 @@ TEST_CASE("scenes that differ in one value are different") {
 TEST_CASE("a mesh file is written as an absolute path, however strange") {
     const fs::path directory = scratch_directory();
     write_file(directory / "mé \"sh\"\\\n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
-    const Scene scene = read(write_file(directory / "scene.toml", R"(version = 1
-[observer]
-position = [0, 0, 4]
-look_at = [0, 0, 0]
-[shading]
+    const Scene scene = read(write_file(directory / "scene.toml", k_start + R"([shading]
 model = "flat"
 [reflection]
 model = "phong"
@@ -251,11 +243,7 @@ TEST_CASE("parameters of a shading model are written in [shading], the only plac
     // Never loaded, but it is a library.
     fs::copy_file(fs::path(CANDELA_TEST_PLUGINS) / "shading-phong.so", directory / "shading-wavy.so");
     candela::Registry registry({directory, CANDELA_TEST_PLUGINS});
-    const Scene scene = read(write_file(directory / "scene.toml", R"(version = 1
-[observer]
-position = [0, 0, 4]
-look_at = [0, 0, 0]
-[shading]
+    const Scene scene = read(write_file(directory / "scene.toml", k_start + R"([shading]
 model = "wavy"
 waves = 5
 [reflection]

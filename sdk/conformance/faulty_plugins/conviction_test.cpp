@@ -44,9 +44,7 @@ struct Verdicts {
 };
 
 Verdicts judged(const fs::path& library, std::vector<std::string> options = {}) {
-    std::vector<std::string> words{CANDELA_TEST_KIT, library.string(), "--json"};
-    words.insert(words.end(), options.begin(), options.end());
-    const CommandResult result = run_program(words);
+    const CommandResult result = run_program(joined({CANDELA_TEST_KIT, library.string(), "--json"}, options));
     INFO(result.err << result.out);
     const json report = json::parse(result.out);
     REQUIRE(report.size() == 1);
@@ -248,9 +246,7 @@ TEST_CASE("an impossible request to the kit is a usage error, not a conforming p
         {{"--list", "reflexion"}, "unknown plugin kind 'reflexion'; did you mean 'reflection'?"},
     };
     for (const auto& [options, message] : mistakes) {
-        std::vector<std::string> words{CANDELA_TEST_KIT};
-        words.insert(words.end(), options.begin(), options.end());
-        const CommandResult result = run_program(words);
+        const CommandResult result = run_program(joined({CANDELA_TEST_KIT}, options));
         INFO(message << "\n" << result.err << result.out);
         CHECK(result.exit_code == 2);
         CHECK(result.out.empty());

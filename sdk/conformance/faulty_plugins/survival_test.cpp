@@ -19,16 +19,8 @@ struct Survived {
 };
 
 CommandResult rendered(const std::vector<std::string>& use, const fs::path& image) {
-    std::vector<std::string> words{"render", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS, "-o",
-                                   image.string()};
-    words.insert(words.end(), use.begin(), use.end());
-    return run_candela(words);
-}
-
-CommandSetup in_directory(const fs::path& directory) {
-    CommandSetup setup;
-    setup.directory = directory;
-    return setup;
+    return run_candela(
+        joined({"render", "--plugin-dir", CANDELA_TEST_FAULTY_PLUGINS, "-o", image.string()}, use));
 }
 
 }  // namespace
@@ -138,16 +130,14 @@ TEST_CASE(
              Ending{"fork", "starts a process that keeps running every time it is loaded"},
          }) {
         INFO(what);
-        CommandSetup setup;
-        setup.environment = {{"FAULTY_ON_LOAD", what}};
+        CommandSetup setup{.environment = {{"FAULTY_ON_LOAD", what}}};
         expect_out(
             run_candela({"plugin", "doctor", "--time-limit", "2", "--plugin-dir", directory.string()}, setup),
             1, {message, "in use: light/point"});
     }
     for (const auto& [what, message] : {Ending{"exit", "ended the process with exit code 0"},
                                         Ending{"abort", "ended the process with signal"}}) {
-        CommandSetup setup;
-        setup.environment = {{"FAULTY_ON_LOAD", what}};
+        CommandSetup setup{.environment = {{"FAULTY_ON_LOAD", what}}};
         const fs::path manifest = directory / "written.json";
         const CommandResult writer =
             run_program({CANDELA_TEST_MANIFEST_WRITER, library.string(), manifest.string()}, setup);
@@ -172,8 +162,7 @@ TEST_CASE("however loading a library ends, the conformance kit reports it and te
              Ending{"crash", "ended by signal SIGSEGV"},
              Ending{"close", "the plugin ended the process"},
          }) {
-        CommandSetup setup;
-        setup.environment = {{"FAULTY_ON_LOAD", what}};
+        CommandSetup setup{.environment = {{"FAULTY_ON_LOAD", what}}};
         const CommandResult result =
             run_candela({"plugin", "test", library.string(), "--time-limit", "2"}, setup);
         INFO(what << result.out << result.err);
@@ -193,7 +182,7 @@ TEST_CASE("the doctor reports a refused plugin once, whether its folder's path i
     REQUIRE(at != std::string::npos);
     write_file(directory / "plugins" / "reflection-other.json", manifest.replace(at, 11, "\"other\""));
     const CommandResult result =
-        run_candela({"plugin", "doctor", "--plugin-dir", "plugins"}, in_directory(directory));
+        run_candela({"plugin", "doctor", "--plugin-dir", "plugins"}, {.directory = directory});
     INFO(result.out);
     CHECK(holds(result.out, "reflection-other.so            refused: its manifest disagrees"));
     CHECK_FALSE(holds(result.out, "refused: plugin"));
@@ -201,9 +190,9 @@ TEST_CASE("the doctor reports a refused plugin once, whether its folder's path i
 
 TEST_CASE("a new plugin with an existing plugin's name hides it, with a warning") {
     const fs::path directory = scratch_directory();
-    expect(run_candela({"plugin", "new", "reflection", "lambert"}, in_directory(directory)), 0,
+    expect(run_candela({"plugin", "new", "reflection", "lambert"}, {.directory = directory}), 0,
            {"a reflection plugin 'lambert' already exists"});
-    CHECK(run_candela({"plugin", "new", "reflection", "velvet"}, in_directory(directory)).err.empty());
+    CHECK(run_candela({"plugin", "new", "reflection", "velvet"}, {.directory = directory}).err.empty());
 }
 
 TEST_CASE("plugins that every user can change are refused, unless explicitly allowed") {

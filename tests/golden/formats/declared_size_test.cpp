@@ -87,8 +87,7 @@ CommandResult rendered_with(const std::string& name, const std::string& bytes) {
                "\"phong\"}\nreflection = {model = \"lambert\"}\nlight = [{type = \"ambient\"}]\n"
                "object = [{type = \"sphere\", color_texture = \"" +
                    name + "\"}]\n");
-    CommandSetup setup;
-    setup.directory = folder;
+    CommandSetup setup{.directory = folder};
     setup.prepare = [] {
         const rlimit time{5, 5}, memory{rlim_t{1500} << 20, rlim_t{1500} << 20};
         if (k_has_shadow_memory) return;

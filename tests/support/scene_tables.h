@@ -1,0 +1,16 @@
+// Tables of small scenes, for tests to put together. What a test is about, it writes itself.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+
+inline const std::string k_observer = "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n";
+inline const std::string k_start = "version = 1\n" + k_observer;
+inline const std::string k_models = "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"phong\"\n";
+inline const std::string k_light = "[[light]]\ntype = \"point\"\nposition = [1, 1, 3]\n";
+inline const std::string k_cube = "[[object]]\nname = \"box\"\ntype = \"cube\"\n";
+
+inline std::string image_table(int width, int height) {
+    return fmt::format("[image]\nwidth = {}\nheight = {}\n", width, height);
+}
