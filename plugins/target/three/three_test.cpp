@@ -15,6 +15,7 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/floor_scene.h"
 #include "support/folder.h"
 
 namespace fs = std::filesystem;
@@ -86,32 +87,7 @@ image = {width = 9, height = 9, color_management = "none"}
            "material = {kd = 1, ka = 0.5}\n";
 }
 
-Folder folder_with_wall() {
-    const Folder folder;
-    folder.write("wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n");
-    return folder;
-}
-
-/// RE example 2: a floor with N = (0, 1, 0), seen from (20, 5, 0), lit from (-10, 10, 0).
-std::string example_2(const std::string& reflection, const std::string& material) {
-    return R"(version = 1
-shading = {model = "phong"}
-room = {width = 50, height = 50, depth = 50}
-observer = {position = [20, 5, 0], look_at = [0, 0, 0], fov = 0.01}
-image = {width = 9, height = 9, color_management = "none"}
-reflection = {model = ")" +
-           reflection + R"("}
-[[light]]
-type = "point"
-position = [-10, 10, 0]
-attenuation = "none"
-[[object]]
-type = "mesh"
-file = "floor.obj"
-color = [255, 255, 255]
-[object.material]
-)" + material;
-}
+Folder folder_with_wall() { return {{"wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n"}}; }
 
 }  // namespace
 
@@ -119,12 +95,11 @@ TEST_CASE(
     "target/three: three.js draws RE example 2 with its own material and with a kernel: 0.7071 and 0.8575",
     "[programs]") {
     require_three();
-    const Folder folder;
-    folder.write("floor.obj", "v 5 0 -5\nv -5 0 -5\nv -5 0 5\nv 5 0 5\nf 1 2 3 4\n");
-    const std::string own = example_2("lambert", "ka = 0\nkd = 1\n");
+    const Folder folder({{"floor.obj", k_floor_obj}});
+    const std::string own = floor_scene("lambert", "ka = 0\nkd = 1\n");
     CHECK(generated(folder, own)["objects"][0]["lambert"].is_object());
     CHECK(drawn_in_the_middle(folder, own) == grey(0.7071));
-    const std::string kernel = example_2("phong", "ka = 0\nkd = 0\nks = 1\nshininess = 1\n");
+    const std::string kernel = floor_scene("phong", "ka = 0\nkd = 0\nks = 1\nshininess = 1\n");
     CHECK(drawn_in_the_middle(folder, kernel) == grey(0.8575));
 }
 
