@@ -1,27 +1,20 @@
 // Requirements for image formats.
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "at_once.h"
-#include "fence.h"
+#include "checks/sample_images.h"
 #include "sandbox/temporary_folder.h"
 #include "subject.h"
 
@@ -34,81 +27,6 @@ using candela::ImageFormat;
 using candela::PixelType;
 
 namespace {
-
-/// A picture whose channels differ: red grows to the right, green downwards, smoothly enough for lossy
-/// formats.
-struct Image {
-    int width, height;
-    std::vector<float> reals;
-    std::vector<std::uint8_t> bytes;
-
-    Image(int w, int h) : width(w), height(h) {
-        for (int y = 0; y < h; ++y) {
-            for (int x = 0; x < w; ++x) {
-                const float across = w > 1 ? static_cast<float>(x) / static_cast<float>(w - 1) : 1.0f;
-                const float down = h > 16 ? static_cast<float>(y) / static_cast<float>(h - 1) : 0.5f;
-                for (const float value : {across, down, 0.25f}) {
-                    reals.push_back(value);
-                    bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * value)));
-                }
-            }
-        }
-    }
-
-    /// One colour after another, in one row, for 1, 2, … pixels. This tests run-length encoding, including
-    /// runs around the largest counts of seven and eight bits.
-    static Image of_runs() {
-        std::vector<std::size_t> colors;
-        std::size_t run = 0;
-        for (const auto& [shortest, longest] : {std::pair{1, 39}, std::pair{120, 135}, std::pair{250, 260}}) {
-            for (int length = shortest; length <= longest; ++length)
-                colors.insert(colors.end(), static_cast<std::size_t>(length), run++);
-        }
-        Image result(static_cast<int>(colors.size()), 1);
-        for (std::size_t i = 0; i < result.reals.size(); ++i) {
-            const float value = (colors[i / 3] >> (i % 3)) % 2 == 0 ? 0.25f : 0.75f;
-            result.reals[i] = value;
-            result.bytes[i] = static_cast<std::uint8_t>(std::lround(255 * value));
-        }
-        return result;
-    }
-
-    candela::ImageView view(PixelType pixels) const {
-        candela::ImageView result{
-            .width = width, .height = height, .pixels = pixels, .encoding = candela::ColorEncoding::srgb};
-        if (pixels == PixelType::byte) {
-            result.bytes = bytes;
-        } else {
-            result.reals = reals;
-        }
-        return result;
-    }
-    std::string size() const { return fmt::format("{} x {}", width, height); }
-};
-
-/// A picture's own channels, and others with values and names that layers have.
-struct LayeredImage {
-    explicit LayeredImage(const Image& picture) {
-        const std::size_t pixels = picture.reals.size() / 3;
-        for (std::size_t c = 0; c < 3; ++c) {
-            for (std::size_t i = 0; i < pixels; ++i) planes[c].push_back(picture.reals[3 * i + c]);
-        }
-        planes[3].assign(pixels, std::numeric_limits<float>::infinity());
-        planes[4].assign(pixels, -1.0f);
-        constexpr const char* k_names[] = {"R", "G", "B", "Z", "light.l\u00e4mp 1.R"};
-        for (std::size_t c = 0; c < planes.size(); ++c) channels.push_back({k_names[c], planes[c]});
-    }
-    std::array<std::vector<float>, 5> planes;
-    std::vector<candela::ImageChannel> channels;  // refer to the planes
-};
-
-class Memory final : public candela::ByteSink {
-  public:
-    void write(std::span<const std::byte> written) override {
-        bytes.insert(bytes.end(), written.begin(), written.end());
-    }
-    std::vector<std::byte> bytes;
-};
 
 /// A disk that becomes full after some bytes.
 class FullDisk final : public candela::ByteSink {
@@ -185,85 +103,6 @@ std::optional<std::size_t> first_difference(const std::vector<float>& sent, cons
     return std::nullopt;
 }
 
-/// A picture whose pixels end, or begin, at inaccessible memory.
-class FencedImage {
-  public:
-    FencedImage(const candela::ImageView& picture, Fence fence)
-        : view_(picture),
-          bytes_("bytes", picture.bytes.size(), fence),
-          reals_("reals", picture.reals.size_bytes(), fence) {
-        std::ranges::copy(picture.bytes, bytes_.as<std::uint8_t>());
-        std::ranges::copy(picture.reals, reals_.as<float>());
-        if (!picture.bytes.empty()) view_.bytes = {bytes_.as<std::uint8_t>(), picture.bytes.size()};
-        if (!picture.reals.empty()) view_.reals = {reals_.as<float>(), picture.reals.size()};
-    }
-    const candela::ImageView& view() const { return view_; }
-
-  private:
-    candela::ImageView view_;
-    Fenced bytes_, reals_;
-};
-
-/// Rows, each surrounded by inaccessible memory.
-class FencedRows final : public candela::ImageRows {
-  public:
-    FencedRows(const candela::ImageView& picture, Fence fence) : rows_(picture), fence_(fence) {}
-    candela::ImageView next(int count) override { return current_.emplace(rows_.next(count), fence_).view(); }
-
-  private:
-    candela::ViewedRows rows_;
-    Fence fence_;
-    std::optional<FencedImage> current_;
-};
-
-/// Memory for a picture being read.
-class FencedSink final : public candela::ImageSink {
-  public:
-    explicit FencedSink(Fence fence) : fence_(fence) {}
-    std::span<float> allocate(int width, int height, bool) override {
-        const std::size_t count = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-        return {values_.emplace("the picture", count * sizeof(float), fence_).as<float>(), count};
-    }
-
-  private:
-    Fence fence_;
-    std::optional<Fenced> values_;
-};
-
-/// Reads outside a picture, its rows and its layers while a file of it is written; empty if nothing
-/// is.
-std::string trespass_of_writing(const ImageFormat& writer, const FileFormat& format, const Image& picture,
-                                Fence fence) {
-    Memory memory;
-    const FencedImage whole(picture.view(format.pixels), fence);
-    std::string trespass = trespass_of([&] { writer.write(whole.view(), format.extension, memory); });
-    const auto* const by_rows = candela::extension_of<candela::ScanlineImageFormat>(writer);
-    if (trespass.empty() && by_rows != nullptr && by_rows->writes_rows(format.extension)) {
-        FencedRows rows(picture.view(format.pixels), fence);
-        candela::ImageView without_pixels = picture.view(format.pixels);
-        without_pixels.bytes = {};
-        without_pixels.reals = {};
-        trespass = trespass_of([&] { by_rows->write_rows(without_pixels, rows, format.extension, memory); });
-    }
-    if (!trespass.empty() || !format.layers) return trespass;
-    const LayeredImage layers(picture);
-    std::vector<std::unique_ptr<Fenced>> values;
-    std::vector<candela::ImageChannel> channels = layers.channels;
-    for (candela::ImageChannel& channel : channels) {
-        const Fenced& fenced = *values.emplace_back(std::make_unique<Fenced>(
-            fmt::format("channel {}", channel.name), channel.values.size_bytes(), fence));
-        std::ranges::copy(channel.values, fenced.as<float>());
-        channel.values = {fenced.as<float>(), channel.values.size()};
-    }
-    return trespass_of(
-        [&] { writer.write_layers(picture.width, picture.height, channels, format.extension, memory); });
-}
-
-void write_file(const fs::path& file, std::span<const std::byte> bytes) {
-    std::ofstream(file, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-}
-
 }  // namespace
 
 TEST_CASE("round trip: what it writes reads back as the same picture, of any size", "[image]") {
@@ -309,29 +148,6 @@ TEST_CASE("round trip: what it writes reads back as the same picture, of any siz
         }
     }
     if (compared == 0) SKIP("no installed plugin reads its formats");
-}
-
-TEST_CASE("bounds: nothing outside the picture is read, or written while a file is read", "[image]") {
-    const auto plugin = make<ImageFormat>(default_values());
-    const TemporaryFolder folder("candela-image-");
-    for (const FileFormat& format : subject().formats) {
-        for (const Image& picture : {Image(1, 1), Image(7, 5), Image(64, 48)}) {
-            Memory memory;
-            plugin->write(picture.view(format.pixels), format.extension, memory);
-            const fs::path file = folder.path() / (std::string("picture.") + format.extension);
-            write_file(file, memory.bytes);
-            for (const Fence fence : {Fence::after, Fence::before}) {
-                const std::string written = trespass_of_writing(*plugin, format, picture, fence);
-                if (!written.empty())
-                    FAIL("writing a ." << format.extension << " of " << picture.size() << ", it " << written);
-                FencedSink sink(fence);
-                const std::string read =
-                    format.reads ? trespass_of([&] { plugin->read(file.c_str(), sink); }) : "";
-                if (!read.empty())
-                    FAIL("reading a ." << format.extension << " of " << picture.size() << ", it " << read);
-            }
-        }
-    }
 }
 
 TEST_CASE("layers: the picture in a file of layers is its first three channels", "[image]") {
