@@ -11,6 +11,7 @@
 #include "candela/kernel_language/model.h"
 
 import candela.api;
+import candela.util;
 
 namespace candela::kernel_language {
 
@@ -34,9 +35,7 @@ std::string literal(std::string_view text) {
 
 std::string number(float value) {
     if (std::isinf(value)) return value < 0 ? "candela::k_no_minimum" : "candela::k_no_maximum";
-    std::string text = fmt::format("{}", value);
-    if (text.find_first_of(".en") == std::string::npos) text += ".0";
-    return text + "f";
+    return toml_text(value) + "f";  // C++ writes reals as TOML does
 }
 
 std::string numbers(const std::vector<float>& values) {
