@@ -9,10 +9,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <utility>
 #include <vector>
 
 #include "candela/parallel.h"
+#include "read_mesh.h"
 #include "support/command.h"
 #include "support/plugins.h"
 #include "support/samples.h"
@@ -23,40 +23,6 @@ using candela::Shape;
 using candela::Vec3;
 
 namespace {
-
-Mesh mesh_of(const std::filesystem::path& file, double crease_angle = 40, const char* shading = "phong") {
-    return candela::build_mesh(
-        *instance<Shape>("mesh", {{"file", file.string()}, {"crease_angle", crease_angle}}), {}, {},
-        *instance<candela::ShadingModel>(shading));
-}
-
-Mesh mesh_of_text(const char* name, const std::string& text, double crease_angle = 40,
-                  const char* shading = "phong") {
-    return mesh_of(write_file(scratch_directory() / name, text), crease_angle, shading);
-}
-
-std::vector<std::string> warnings_about(const char* name, const std::string& text) {
-    const auto file = write_file(scratch_directory() / name, text);
-    return candela::place(*instance<Shape>("mesh", {{"file", file.string()}}), {}, {}).warnings;
-}
-
-Vec3 normal_of_corner(const Mesh& mesh, std::size_t corner) {
-    return mesh.vertices[mesh.indices[corner]].normal;
-}
-
-/// Two squares that meet along the z axis, the first in the plane y = 0, the second turned up by `degrees`.
-std::string fold(double degrees) {
-    const double turn = degrees * std::acos(-1.0) / 180;
-    return fmt::format(
-        "v 0 0 0\nv 0 0 1\nv -1 0 1\nv -1 0 0\nv {0} {1} 0\nv {0} {1} 1\nf 1 4 3 2\nf 1 2 6 5\n",
-        std::cos(turn), std::sin(turn));
-}
-
-bool has_hard_edge(const Mesh& mesh) {
-    for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner)
-        if (!agree(normal_of_corner(mesh, corner), mesh.face_normal.span()[corner / 3], 1e-6)) return false;
-    return true;
-}
 
 /// A mesh as careless exporters write it: every triangle with three vertices of its own, and no normals.
 std::string soup_of(const Mesh& mesh) {
@@ -228,112 +194,6 @@ TEST_CASE("shape/mesh: without texture coordinates, or with useless ones, deriva
     }
 }
 
-TEST_CASE("shape/mesh: without normals, edges are hard where faces turn by more than the crease angle") {
-    // A fold by d degrees turns the normals by d.
-    for (const double degrees : {10.0, 39.0, 41.0, 90.0, 135.0}) {
-        INFO(degrees);
-        CHECK(has_hard_edge(mesh_of_text("fold.obj", fold(degrees))) == (degrees > 40));
-        CHECK(has_hard_edge(mesh_of_text("fold.obj", fold(degrees), degrees - 0.5)));
-        CHECK_FALSE(has_hard_edge(mesh_of_text("fold.obj", fold(degrees), degrees + 0.5)));
-        CHECK_FALSE(has_hard_edge(mesh_of_text("fold.obj", fold(degrees), 180)));
-    }
-    // Where it is smooth, the edge's normals lie between those of the squares.
-    const Mesh mesh = mesh_of_text("fold.obj", fold(30));
-    for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner) {
-        const Vec3 p = mesh.position.span()[mesh.indices[corner]];
-        if (p.x != 0) continue;
-        const Double3 n = exact(normal_of_corner(mesh, corner));
-        const double turned = std::atan2(-n.x, n.y) * 180 / std::acos(-1.0);
-        CHECK(agree(n.z, 0, 1e-6, 1e-6));
-        CHECK(turned > 9.9);
-        CHECK(turned < 20.1);
-    }
-}
-
-TEST_CASE(
-    "shape/mesh: without a request for normals, the file's vertices stay as they are, without duplicates") {
-    const auto file = write_file(scratch_directory() / "fold.obj", fold(90));
-    const auto shape = instance<Shape>("mesh", {{"file", file.string()}});
-    const candela::Mesh with = candela::place(*shape, {}, {}).mesh;
-    const candela::Mesh without = candela::place(*shape, {.normals = false}, {}).mesh;
-    CHECK(with.vertex_count() == 8);
-    CHECK(without.vertex_count() == 6);
-    CHECK(without.triangle_count() == with.triangle_count());
-    CHECK(without.open_edges == with.open_edges);
-}
-
-TEST_CASE("shape/mesh: hard edges apply to every shading model that has vertex normals") {
-    for (const char* const shading :
-         {"gouraud", "phong", "angle-weighted", "area-weighted", "max-weighted"}) {
-        INFO(shading);
-        CHECK(has_hard_edge(mesh_of_text("fold.obj", fold(90), 40, shading)));
-        CHECK_FALSE(has_hard_edge(mesh_of_text("fold.obj", fold(90), 180, shading)));
-    }
-}
-
-TEST_CASE("shape/mesh: a file's smoothing groups override the crease angle") {
-    const std::string text = fold(90);
-    const std::size_t second = text.rfind("f ");
-    const auto grouped = [&](const char* first, const char* then) {
-        return text.substr(0, text.find("f ")) + first +
-               text.substr(text.find("f "), second - text.find("f ")) + then + text.substr(second);
-    };
-    for (const double crease_angle : {0.0, 40.0, 180.0}) {
-        INFO(crease_angle);
-        CHECK_FALSE(has_hard_edge(mesh_of_text("s.obj", grouped("s 1\n", ""), crease_angle)));
-        CHECK(has_hard_edge(mesh_of_text("s.obj", grouped("s 1\n", "s 2\n"), crease_angle)));
-        CHECK(has_hard_edge(mesh_of_text("s.obj", grouped("s off\n", ""), crease_angle)));
-        CHECK(has_hard_edge(mesh_of_text("s.obj", grouped("s 0\n", ""), crease_angle)));
-        CHECK(has_hard_edge(mesh_of_text("s.obj", grouped("s 1\n", "s off\n"), crease_angle)));
-    }
-}
-
-TEST_CASE("shape/mesh: a cylinder without normals is smooth around, and sharp at its rims") {
-    constexpr int k_sides = 24;  // 15 degrees from one to the next
-    std::string text;
-    std::string top = "f", bottom;
-    for (int i = 0; i < k_sides; ++i) {
-        const double phi = 2 * std::acos(-1.0) * i / k_sides;
-        for (const int y : {0, 1})
-            text += fmt::format("v {:.9} {} {:.9}\n", std::cos(phi), y, -std::sin(phi));
-        top += fmt::format(" {}", 2 * i + 2);
-        bottom = fmt::format(" {}", 2 * i + 1) + bottom;
-    }
-    text += top + "\nf" + bottom + "\n";
-    for (int i = 0; i < k_sides; ++i) {
-        const int a = 2 * i + 1, b = 2 * ((i + 1) % k_sides) + 1;
-        text += fmt::format("f {} {} {} {}\n", a, b, b + 1, a + 1);
-    }
-    const Mesh mesh = mesh_of_text("cylinder.obj", text);
-    CHECK(mesh.closed);
-    for (std::size_t corner = 0; corner < mesh.indices.size(); ++corner) {
-        const Vec3 p = mesh.position.span()[mesh.indices[corner]];
-        const bool on_side = std::abs(mesh.face_normal.span()[corner / 3].y) < 0.5f;
-        const Vec3 expected = on_side ? Vec3{p.x, 0, p.z} : mesh.face_normal.span()[corner / 3];
-        // Two triangles of one side and one of the other lean the mean by a sixth of 15 degrees.
-        CHECK(dot(normal_of_corner(mesh, corner), expected) > (on_side ? 0.998f : 0.99999f));
-    }
-}
-
-TEST_CASE("shape/mesh: the crease angle also applies where hundreds of triangles meet") {
-    // A cone of 400 sides: smooth around the tip. Its foot: hard.
-    constexpr int k_sides = 400;
-    std::string text = "v 0 1 0\nv 0 0 0\n";
-    for (int i = 0; i < k_sides; ++i) {
-        const double phi = 2 * std::acos(-1.0) * i / k_sides;
-        text += fmt::format("v {:.9} 0 {:.9}\n", std::cos(phi), -std::sin(phi));
-    }
-    for (int i = 0; i < k_sides; ++i) {
-        const int a = i + 3, b = (i + 1) % k_sides + 3;
-        text += fmt::format("f 1 {} {}\nf 2 {} {}\n", a, b, b, a);
-    }
-    const Mesh mesh = mesh_of_text("cone.obj", text);
-    CHECK(mesh.closed);
-    CHECK(mesh.vertex_count() == 2 + 2 * k_sides);
-    for (std::size_t corner = 0; corner < mesh.indices.size(); corner += 6)
-        CHECK(agree(normal_of_corner(mesh, corner), Vec3{0, 1, 0}, 1e-4, 1e-4));
-}
-
 TEST_CASE("shape/mesh: concave polygons are covered once, by their corners' triangles") {
     // A comb of twenty teeth, 2 wide with a gap of 1, on a back of height 1; once flat and once upright.
     std::string upright, flat, face = "f";
@@ -379,101 +239,6 @@ TEST_CASE("shape/mesh: contents of a file that Candela leaves out are reported o
     REQUIRE(said.size() == 1);
     CHECK(said[0].ends_with(
         "also has 2 lines, points, a material library and a use of a material, which are left out"));
-}
-
-TEST_CASE(
-    "shape/mesh: a closed mesh that is wound inside out is turned round, normals included, with a warning") {
-    // A tetrahedron, seen from within.
-    const std::string corners = "v 1 1 1\nv -1 -1 1\nv -1 1 -1\nv 1 -1 -1\n";
-    const std::string faces = "f 2 1 4\nf 2 3 1\nf 3 4 1\nf 3 2 4\n";
-    const auto said = warnings_about("t.obj", corners + faces);
-    REQUIRE(said.size() == 1);
-    CHECK(said[0].ends_with("is closed but wound inside out, so its triangles are turned round"));
-    const Mesh mesh = mesh_of_text("t.obj", corners + faces);
-    CHECK(mesh.closed);
-    for (std::size_t t = 0; t < 4; ++t)
-        CHECK(dot(mesh.face_normal.span()[t], mesh.position.span()[mesh.indices[3 * t]]) > 0);
-    // Half a tetrahedron has no inside.
-    CHECK(warnings_about("h.obj", corners + "f 2 1 4\n").empty());
-
-    std::string with_normals = corners + "vn -1 -1 -1\nvn 1 1 -1\nvn 1 -1 1\nvn -1 1 1\n";
-    with_normals += "f 2//2 1//1 4//4\nf 2//2 3//3 1//1\nf 3//3 4//4 1//1\nf 3//3 2//2 4//4\n";
-    const Mesh turned = mesh_of_text("n.obj", with_normals);
-    for (std::size_t corner = 0; corner < 12; ++corner)
-        CHECK(dot(normal_of_corner(turned, corner), turned.position.span()[turned.indices[corner]]) > 0);
-    // Normals that were right stay as they are.
-    std::string right = corners + "vn 1 1 1\nvn -1 -1 1\nvn -1 1 -1\nvn 1 -1 -1\n";
-    right += "f 2//2 1//1 4//4\nf 2//2 3//3 1//1\nf 3//3 4//4 1//1\nf 3//3 2//2 4//4\n";
-    const Mesh kept = mesh_of_text("r.obj", right);
-    for (std::size_t corner = 0; corner < 12; ++corner)
-        CHECK(dot(normal_of_corner(kept, corner), kept.position.span()[kept.indices[corner]]) > 0);
-}
-
-namespace {
-
-/// A tetrahedron around `x`; numbered from `first` on.
-std::string tetrahedron(double x, double size, int first, bool inside_out) {
-    std::string text;
-    for (const auto& [a, b, c] :
-         {std::array{1, 1, 1}, std::array{-1, -1, 1}, std::array{-1, 1, -1}, std::array{1, -1, -1}})
-        text += fmt::format("v {} {} {}\n", x + size * a, size * b, size * c);
-    for (auto [a, b, c] :
-         {std::array{1, 2, 4}, std::array{1, 3, 2}, std::array{1, 4, 3}, std::array{4, 2, 3}}) {
-        if (inside_out) std::swap(b, c);
-        text += fmt::format("f {} {} {}\n", first + a, first + b, first + c);
-    }
-    return text;
-}
-
-/// Six times the volume that each group of four triangles encloses.
-std::vector<double> volumes_of_four(const Mesh& mesh) {
-    std::vector<double> volumes(mesh.triangle_count() / 4);
-    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
-        const auto at = [&](std::size_t k) { return mesh.position.span()[mesh.indices[3 * t + k]]; };
-        volumes[t / 4] += static_cast<double>(dot(at(0), cross(at(1), at(2))));
-    }
-    return volumes;
-}
-
-}  // namespace
-
-TEST_CASE("shape/mesh: of several parts, those that are wound inside out are turned round, and counted") {
-    const std::string right = tetrahedron(0, 1, 0, false), wrong = tetrahedron(5, 1, 4, true);
-    auto said = warnings_about("two.obj", right + wrong);
-    REQUIRE(said.size() == 1);
-    CHECK(said[0].ends_with(
-        "has 2 parts, 1 of which is closed but wound inside out, so its triangles are turned round"));
-    for (const double volume : volumes_of_four(mesh_of_text("two.obj", right + wrong))) CHECK(volume > 0);
-
-    // However little they enclose compared with the others.
-    const std::string large = tetrahedron(0, 10, 0, false), small = tetrahedron(50, 0.1, 4, true);
-    CHECK(holds(warnings_about("small.obj", large + small + tetrahedron(60, 0.1, 8, true)).at(0),
-                "has 3 parts, 2 of which are closed but wound inside out, so their triangles"));
-
-    // With an open part next to it.
-    const std::string open = tetrahedron(0, 1, 0, false).substr(0, right.rfind('f'));
-    said = warnings_about("open.obj", open + wrong);
-    REQUIRE(said.size() == 1);
-    CHECK(holds(said[0], "has 2 parts, 1 of which is closed but wound"));
-}
-
-TEST_CASE("shape/mesh: a cavity keeps its winding, and turns with the part that contains it") {
-    const std::string hollow = tetrahedron(0, 3, 0, false) + tetrahedron(0, 0.5, 4, true);
-    CHECK(warnings_about("hollow.obj", hollow).empty());
-    const auto volumes = volumes_of_four(mesh_of_text("hollow.obj", hollow));
-    CHECK(volumes[0] > 0);
-    CHECK(volumes[1] < 0);
-
-    const std::string turned = tetrahedron(0, 3, 0, true) + tetrahedron(0, 0.5, 4, false);
-    CHECK(warnings_about("turned.obj", turned).size() == 1);
-    const auto after = volumes_of_four(mesh_of_text("turned.obj", turned));
-    CHECK(after[0] > 0);
-    CHECK(after[1] < 0);
-
-    // A part that a ray passes through need not contain the part where the ray starts.
-    std::string row;
-    for (int i = 0; i < 200; ++i) row += tetrahedron(3.0 * i, 1, 4 * i, i % 3 == 0);
-    CHECK(holds(warnings_about("row.obj", row).at(0), "has 200 parts, 67 of which are closed but wound"));
 }
 
 TEST_CASE("shape/mesh: a pipe, a folder and a device are refused without waiting") {
