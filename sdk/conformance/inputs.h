@@ -1,4 +1,4 @@
-// What plugins that work on batches are given: points of surfaces and the light that arrives there.
+// The points of surfaces, and the light that arrives there, that plugins are given in batches.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Tables of small scenes, for tests to put together. What a test is about, it writes itself.
+// Tables of small scenes, for tests to put together around the lines that they are about.
 #pragma once
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// What has been compiled from kernels, kept in folders for the next time.
+// Folders that keep compiled kernels for the next time.
 #pragma once
 
 #include <cstdint>
