@@ -80,7 +80,7 @@ TEST_CASE(
     const auto spread = [](const std::string& u, const std::string& v) {
         const Compiled ball =
             compiled(k_start + "projection = \"orthographic\"\nheight = 2.2\n" + image_table(96, 96) +
-                     "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"ward\"\n"
+                     models("phong", "ward") +
                      "[[light]]\ntype = \"directional\"\ndirection = [0, 0, -1]\n"
                      "[[object]]\ntype = \"sphere\"\nradius = 1\nmaterial = { kd = 0, ka = 0, ks = 1, "
                      "roughness_u = " +

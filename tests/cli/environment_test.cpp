@@ -14,7 +14,7 @@ namespace {
 CommandResult render(const std::string& image, const Folder& directory,
                      const std::vector<std::pair<std::string, std::string>>& environment = {}) {
     directory.write("scene.toml", "version = 1\n" + image_table(16, 8) + image + "\n" + k_observer +
-                                      "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"dielectric\"\n"
+                                      models("phong", "dielectric") +
                                       "[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"sphere\"\n");
     return directory.run("render scene.toml -o out.ppm", {}, environment);
 }

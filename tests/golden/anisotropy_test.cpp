@@ -8,6 +8,7 @@
 
 #include "golden/image.h"
 #include "support/command.h"
+#include "support/scene_tables.h"
 
 namespace {
 
@@ -25,14 +26,12 @@ struct Brushed {
 Spread spread(const std::filesystem::path& directory, const Brushed& surface, int rotation = 0) {
     const Image image = render_floats(
         directory,
-        fmt::format("[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nprojection = "
-                    "\"orthographic\"\nheight = 1.2\n"
-                    "[image]\nwidth = 160\nheight = 160\ncolor_management = \"none\"\n"
-                    "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"{}\"\n"
-                    "[[light]]\ntype = \"directional\"\ndirection = [0, 0, -1]\n"
-                    "[[object]]\ntype = \"sphere\"\nradius = 0.5\nsegments = 128\nrotation = [0, 0, {}]\n"
-                    "[object.material]\nka = 0\nkd = 0\nks = 1\n{}",
-                    surface.model, rotation, surface.material));
+        k_observer + "projection = \"orthographic\"\nheight = 1.2\n" + image_table(160, 160) +
+            "color_management = \"none\"\n" + models("phong", surface.model) +
+            "[[light]]\ntype = \"directional\"\ndirection = [0, 0, -1]\n" +
+            fmt::format("[[object]]\ntype = \"sphere\"\nradius = 0.5\nsegments = 128\nrotation = [0, 0, {}]\n"
+                        "[object.material]\nka = 0\nkd = 0\nks = 1\n{}",
+                        rotation, surface.material));
     double sum = 0, xx = 0, yy = 0;
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
@@ -89,13 +88,12 @@ TEST_CASE(
     const auto of = [&](const char* shading, const char* file, const char* roughness_v) {
         return render_floats(
             directory,
-            fmt::format(
-                "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\n[image]\nwidth = 64\nheight = 64\n"
-                "[shading]\nmodel = \"{}\"\n[reflection]\nmodel = \"ward\"\n"
-                "[[light]]\ntype = \"point\"\nposition = [1, 1, 2]\n"
-                "[[object]]\ntype = \"mesh\"\nfile = \"{}\"\n"
-                "[object.material]\nka = 0\nkd = 0\nks = 1\nroughness_u = 0.3\nroughness_v = {}\n",
-                shading, file, roughness_v));
+            k_observer + image_table(64, 64) + models(shading, "ward") +
+                fmt::format(
+                    "[[light]]\ntype = \"point\"\nposition = [1, 1, 2]\n"
+                    "[[object]]\ntype = \"mesh\"\nfile = \"{}\"\n"
+                    "[object.material]\nka = 0\nkd = 0\nks = 1\nroughness_u = 0.3\nroughness_v = {}\n",
+                    file, roughness_v));
     };
     const auto difference = [](const Image& a, const Image& b) {
         float largest = 0, brightest = 0;

@@ -12,6 +12,7 @@
 
 #include "golden/image.h"
 #include "support/command.h"
+#include "support/scene_tables.h"
 
 namespace {
 
@@ -24,14 +25,8 @@ std::string orthographic_view(int size, double metres) {
 }
 
 std::string perspective_view(int width, int height, double fov) {
-    return fmt::format(
-        "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nfov = {}\n"
-        "[image]\nwidth = {}\nheight = {}\ncolor_management = \"none\"\n",
-        fov, width, height);
-}
-
-std::string models(const char* shading, const char* reflection) {
-    return fmt::format("[shading]\nmodel = \"{}\"\n[reflection]\nmodel = \"{}\"\n", shading, reflection);
+    return k_observer + fmt::format("fov = {}\n", fov) + image_table(width, height) +
+           "color_management = \"none\"\n";
 }
 
 constexpr Double3 k_eye{0, 0, 4};

@@ -37,9 +37,7 @@ Image render_floats(const std::filesystem::path& directory, const std::string& s
                     const std::vector<std::string>& arguments) {
     const auto file = write_file(directory / "scene.toml", "version = 1\n" + scene);
     const auto pfm = directory / "picture.pfm";
-    std::vector<std::string> words = {"render", file.string(), "-o", pfm.string()};
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    succeeded(run_candela(words));
+    succeeded(run_candela(joined({"render", file.string(), "-o", pfm.string()}, arguments)));
     return read_pfm(pfm);
 }
 

@@ -9,20 +9,15 @@
 #include "render/darkness_diagnosis.h"
 #include "render/rendered_rows.h"
 #include "support/compiled.h"
+#include "support/scene_tables.h"
 
 namespace {
 
 /// A sphere as wide as the picture, a torus and a background that differs from row to row.
 std::string scene_of(int width, int height, int samples = 1) {
-    return "version = 1\n[observer]\nposition = [0.3, 1.6, 4.2]\nlook_at = [0, 0, 0]\n[image]\nwidth = " +
-           std::to_string(width) + "\nheight = " + std::to_string(height) +
-           "\nsamples = " + std::to_string(samples) +
-           R"(
+    return "version = 1\n[observer]\nposition = [0.3, 1.6, 4.2]\nlook_at = [0, 0, 0]\n" + k_models +
+           image_table(width, height) + "samples = " + std::to_string(samples) + R"(
 background = [20, 30, 40]
-[shading]
-model = "phong"
-[reflection]
-model = "phong"
 [[light]]
 type = "point"
 position = [-2, 3, 3]

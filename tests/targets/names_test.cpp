@@ -57,8 +57,7 @@ std::string quoted(const std::string& text) { return nlohmann::json(text).dump(-
 
 /// TOML has \u escapes like JSON, except for surrogates, which do not occur here.
 std::string scene_with(const std::vector<std::string>& names) {
-    std::string text =
-        k_start + image_table(48, 32) + "[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"lambert\"\n";
+    std::string text = k_start + image_table(48, 32) + models("phong", "lambert");
     for (std::size_t i = 0; i < names.size(); ++i) {
         text += fmt::format("[[light]]\nname = {}\ntype = \"ambient\"\nintensity = 0.01\n",
                             quoted("light " + names[i]));

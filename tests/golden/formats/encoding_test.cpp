@@ -11,6 +11,7 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/samples.h"
+#include "support/scene_tables.h"
 
 namespace {
 
@@ -30,11 +31,10 @@ candela::Vec3 middle_of(const std::filesystem::path& file) {
 TEST_CASE("scene colours are decoded from sRGB, and 8-bit pictures are encoded again") {
     const auto directory = scratch_directory();
     const auto pixel = [&](const char* management, const std::string& file) {
-        const auto scene = write_file(directory / "scene.toml",
-                                      fmt::format("version = 1\n[observer]\nposition = [0, 0, 4]\nlook_at = "
-                                                  "[0, 0, 0]\n[image]\nwidth = 9\nheight = 9\n"
-                                                  "background = [188, 64, 5]\ncolor_management = \"{}\"\n",
-                                                  management));
+        const auto scene =
+            write_file(directory / "scene.toml",
+                       k_start + image_table(9, 9) +
+                           fmt::format("background = [188, 64, 5]\ncolor_management = \"{}\"\n", management));
         succeeded(run_candela({"render", scene.string(), "-o", (directory / file).string()}));
         return middle_of(directory / file);
     };
