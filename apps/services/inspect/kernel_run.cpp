@@ -62,7 +62,8 @@ void KernelRunner::prepare() {
         write_text(made / "candela/kernel/prelude.kernel", prelude);
         write_text(made / "kernels.cpp", text);
         if (!compile(made)) return;
-        if (!kept_.empty()) kl::keep(made, kept_program);
+        // If it cannot be kept, it runs where it was made.
+        if (!kept_.empty()) static_cast<void>(kl::keep(made, kept_program));
     }
     executable_ = (fs::exists(made / "kernels", problem) ? made : kept_program) / "kernels";
 }
