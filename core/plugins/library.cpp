@@ -255,11 +255,11 @@ void rethrow_as_plugin_error(PluginKind kind, std::string_view name) {
         throw;
     } catch (const std::exception& problem) {
         throw Error(ErrorCategory::failure,
-                    fmt::format("plugin {}/{}: {}", candela::name_of(kind), name, problem.what()));
+                    fmt::format("plugin {}: {}", plugin_id(kind, name), problem.what()));
     } catch (...) {
-        throw Error(ErrorCategory::failure,
-                    fmt::format("plugin {}/{} threw an object that is not a std::exception",
-                                candela::name_of(kind), name));
+        throw Error(
+            ErrorCategory::failure,
+            fmt::format("plugin {} threw an object that is not a std::exception", plugin_id(kind, name)));
     }
 }
 

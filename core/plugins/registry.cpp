@@ -29,10 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string id_of(PluginKind kind, std::string_view name) {
-    return fmt::format("{}/{}", name_of(kind), name);
-}
-
 void add_path_list(std::vector<fs::path>& directories, std::string_view list) {
     while (!list.empty()) {
         const auto colon = list.find(':');
@@ -71,6 +67,27 @@ bool is_plugin_name(std::string_view name) {
     const auto is_allowed = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-'; };
     return !name.empty() && is_letter(name.front()) && name.back() != '-' && name.find("--") == name.npos &&
            std::ranges::all_of(name, is_allowed);
+}
+
+std::string absolute_model_name(const fs::path& name) {
+    if (!is_kernel_file(name.native())) return name.string();
+    std::error_code problem;
+    const fs::path file = fs::absolute(name, problem);
+    return problem ? name.string() : file.lexically_normal().string();
+}
+
+std::string shown_model_name(std::string_view name) {
+    const fs::path file(name);
+    if (!is_kernel_file(name) || file.is_relative()) return std::string(name);
+    std::error_code problem;
+    const fs::path here = fs::current_path(problem);
+    const bool is_inside = !problem && std::ranges::mismatch(here, file).in1 == here.end();
+    return is_inside ? file.lexically_relative(here).string() : file.string();
+}
+
+std::string plugin_id(PluginKind kind, std::string_view name) {
+    const std::string shown = shown_model_name(name);
+    return is_kernel_file(name) ? shown : fmt::format("{}/{}", name_of(kind), shown);
 }
 
 KernelError::KernelError(SourceLocation place, const std::string& message, std::string source)
@@ -141,7 +158,7 @@ const PluginFile* Registry::find(PluginKind kind, std::string_view name) {
         const PluginFile* const plugin = kernel_entry(name).plugin.get();
         return plugin != nullptr && plugin->manifest.kind == kind ? plugin : nullptr;
     }
-    const std::string id = id_of(kind, name);
+    const std::string id = plugin_id(kind, name);
     if (const auto known = found_.find(id); known != found_.end()) return known->second.get();
     if (name.find('/') != std::string_view::npos) return nullptr;
     for (std::size_t i = 0; i < search_path_.size(); ++i) {
@@ -182,7 +199,7 @@ const PluginFile& Registry::require(PluginKind kind, std::string_view name) {
     if (is_kernel_file(name)) {
         const PluginFile& plugin = require_kernel(std::string(name));
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("'{}' is a {} model; expected a {} model", name,
+                    fmt::format("'{}' is a {} model; expected a {} model", shown_model_name(name),
                                 candela::name_of(plugin.manifest.kind), candela::name_of(kind)));
     }
     if (const auto refused = refused_before(nullptr, kind, name); !refused.empty())
@@ -316,8 +333,8 @@ std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string
 }
 
 void Registry::throw_wrong_interface(PluginKind kind, std::string_view name) {
-    throw Error(ErrorCategory::failure, fmt::format("plugin {}/{} created an object that is not a {}",
-                                                    candela::name_of(kind), name, candela::name_of(kind)));
+    throw Error(ErrorCategory::failure, fmt::format("plugin {} created an object that is not a {}",
+                                                    plugin_id(kind, name), candela::name_of(kind)));
 }
 
 }  // namespace candela

@@ -76,6 +76,17 @@ constexpr bool has_kernels(PluginKind kind) {
     return kind == PluginKind::light || kind == PluginKind::reflection || kind == PluginKind::shading;
 }
 
+/// The name of a model as a scene keeps it: the path of a kernel file becomes absolute.
+CANDELA_EXPORT std::string absolute_model_name(const std::filesystem::path& name);
+
+/// A model's name as people know it: a kernel file by its path, relative to the working directory if it is in
+/// there; other names unchanged.
+CANDELA_EXPORT std::string shown_model_name(std::string_view name);
+
+/// How people call the plugin that has this name in a registry: "reflection/phong", or shown_model_name() of
+/// a kernel file.
+CANDELA_EXPORT std::string plugin_id(PluginKind kind, std::string_view name);
+
 /// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins next to the core.
 CANDELA_EXPORT std::vector<std::filesystem::path> plugin_search_path(
     std::span<const std::filesystem::path> first);

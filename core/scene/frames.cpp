@@ -142,9 +142,11 @@ std::optional<SceneFrames> SceneFrames::read(const SceneRequest& request, Regist
     if (!document) return std::nullopt;
     auto content =
         std::make_unique<Content>(Content{request, registry, *std::move(document), std::nullopt, false});
+    for (auto* const chosen : {&content->request.shading, &content->request.reflection})
+        if (*chosen) (*chosen)->name = absolute_model_name((*chosen)->name);
     SceneTables tables(content->document, registry, diagnostics);
     const std::size_t errors = diagnostics.error_count();
-    content->animation = read_animation(tables, request);
+    content->animation = read_animation(tables, content->request);
     content->is_broken = diagnostics.error_count() != errors;
     return SceneFrames(std::move(content));
 }

@@ -244,9 +244,7 @@ void resolve_kernel_file(TableNode& table, std::string_view key) {
     if (entry == nullptr) return;
     auto* const name = std::get_if<std::string>(&entry->node.value);
     if (name == nullptr || !is_kernel_file(*name)) return;
-    std::error_code problem;
-    const fs::path file = fs::absolute(path_at(entry->node.place, *name), problem);
-    if (!problem) *name = file.lexically_normal().string();
+    *name = absolute_model_name(path_at(entry->node.place, *name));
 }
 
 void resolve_kernel_files(TableNode& root) {

@@ -102,7 +102,7 @@ void ModelChooser::read_shading_table() {
     const TableNode* const table = tables_.single("shading");
     if (plugin == nullptr || table == nullptr || request_.shading) return;
     TableContext context = tables_.context_of("shading");
-    context.help = {Help::Topic::plugin, plugin->manifest.id()};
+    context.help = {Help::Topic::plugin, plugin_id(PluginKind::shading, shading_->name)};
     context.lists_keys = false;
     report_unknown_keys(*table, names_in(plugin->manifest.parameters, {"model"}), context,
                         tables_.diagnostics());
@@ -142,7 +142,7 @@ Model ModelChooser::reflection_for(const TableNode& object, const std::string& l
     if (plugin == nullptr) return {};
     const TableNode& material = entry != nullptr ? *entry->node.table() : k_empty;
     const TableContext context{fmt::format("[object.material] of {}", label),
-                               {Help::Topic::plugin, plugin->manifest.id()},
+                               {Help::Topic::plugin, plugin_id(PluginKind::reflection, model->name)},
                                entry != nullptr ? entry->key_place : place,
                                "",
                                hints_for("material", tables_.registry())};
@@ -166,7 +166,7 @@ void ModelChooser::report_unknown_material_keys(const TableNode& material, const
         } else if (!request_.reflection) {
             tables_.diagnostics().error(
                 entry.key_place,
-                fmt::format("{} has no parameter '{}', which {} {}", plugin.manifest.id(), entry.key,
+                fmt::format("{} has no parameter '{}', which {} {}", context.help.subject, entry.key,
                             fmt::join(others, ", "), others.size() == 1 ? "has" : "have"),
                 "", context.help);
         }

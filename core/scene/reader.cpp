@@ -193,7 +193,7 @@ class Reader {
         const PluginFile* const plugin =
             tables_.known(kind, text(own, "type"), table.find("type")->node.place);
         if (plugin == nullptr) return std::nullopt;
-        context.help = {Help::Topic::plugin, plugin->manifest.id()};
+        context.help = {Help::Topic::plugin, plugin_id(kind, text(own, "type"))};
         context.hint = hints_for(table_name, registry_);
         const std::vector<std::string> keys = names_in(
             plugin->manifest.parameters, names_in(schema_of(table_name).parameters, std::move(more_keys)));

@@ -261,7 +261,7 @@ bool SurfaceShader::are_ends_intact(std::span<Vec3Arrays* const> written) {
 void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, std::size_t count,
                                   std::initializer_list<const Vec3Arrays*> results) {
     const auto fail = [&](const char* what) {
-        throw Error(ErrorCategory::failure, fmt::format("plugin {}/{} {}", name_of(kind), plugin, what),
+        throw Error(ErrorCategory::failure, fmt::format("plugin {} {}", plugin_id(kind, plugin), what),
                     {Help::Topic::plugin_conformance});
     };
     if (!are_ends_intact(written_by_plugins())) {

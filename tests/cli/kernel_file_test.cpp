@@ -196,3 +196,14 @@ TEST_CASE("a kernel is compiled once, and again when its text has changed", "[ke
     write_file(place.directory / "half.kernel", brighter);
     CHECK(place.image({"render", "scene.toml"}) != first);
 }
+TEST_CASE("messages call a kernel file by its path", "[kernel_files]") {
+    const Workspace place;
+    expect(place.candela({"check", "scene.toml", "--set", "object.ball.material.kx=1"}), 3,
+           {"unknown key 'kx' in [object.material] of 'ball'", "(candela describe half.kernel)"});
+    expect_out(place.candela({"describe", "half.kernel"}), 0, {"Half (half.kernel), version 0"});
+    expect_out(place.candela({"check", "scene.toml", "--shading", "phong"}), 0,
+               {"phong shading, half.kernel reflection\n"});
+    expect_out(place.candela({"explain", "scene.toml", "--pixel", "20,15"}), 0,
+               {" half.kernel reflection\n"});
+}
+

@@ -79,6 +79,9 @@ Json animation_json(const candela::Animation& animation) {
 
 void print_summary(const Scene& scene, const RenderScene& compiled) {
     const candela::Room& room = scene.room;
+    const auto type_of = [](const candela::LightSource& l) {
+        return candela::shown_model_name(l.model.name);
+    };
     std::cout << "The scene is valid.\n"
               << fmt::format("  room      {} m wide, {} m high, {} m deep\n", room.width, room.height,
                              room.depth)
@@ -87,8 +90,7 @@ void print_summary(const Scene& scene, const RenderScene& compiled) {
                              count(static_cast<std::size_t>(scene.image.samples), "sample"))
               << animation_text(scene)
               << fmt::format("  lights    {}{}\n", scene.lights.size(),
-                             in_parentheses(
-                                 tally(names_of(scene.lights, [](const auto& l) { return l.model.name; }))))
+                             in_parentheses(tally(names_of(scene.lights, type_of))))
               << fmt::format("  objects   {}, {}\n", scene.objects.size(),
                              count(triangles_of(compiled), "triangle"));
     constexpr std::size_t k_most_lines = 50;
@@ -97,7 +99,8 @@ void print_summary(const Scene& scene, const RenderScene& compiled) {
         std::cout << fmt::format("    {:<12} {}, {}, {} shading, {} reflection\n",
                                  candela::printable(object.label.text()), object.shape.name,
                                  count(compiled.objects[i].mesh.triangle_count(), "triangle"),
-                                 object.shading.name, object.reflection.name);
+                                 candela::shown_model_name(object.shading.name),
+                                 candela::shown_model_name(object.reflection.name));
     }
     if (scene.objects.size() > k_most_lines) {
         const auto rest = std::vector(scene.objects.begin() + k_most_lines, scene.objects.end());

@@ -90,11 +90,12 @@ std::vector<std::string> sources_of(const std::vector<candela::Preset>& presets)
     return sources;
 }
 
-void print(const candela::PluginFile& file) {
+/// `id`: as commands call it.
+void print(const candela::PluginFile& file, const std::string& id) {
     constexpr std::size_t k_names = 20;
     const candela::Manifest& m = file.manifest;
     const auto line = [](const std::string& text) { return candela::printable(text); };
-    std::cout << wrapped(line(fmt::format("{} ({}), version {}", m.title, m.id(), m.version)), 0, 0) << '\n'
+    std::cout << wrapped(line(fmt::format("{} ({}), version {}", m.title, id, m.version)), 0, 0) << '\n'
               << wrapped(line(m.summary), 0, 0) << '\n';
     if (!m.formula.empty()) std::cout << "\nFormula\n" << indented(m.formula);
     if (!m.reference.empty()) std::cout << "\nReference\n" << indented(m.reference);
@@ -134,11 +135,13 @@ int run_describe(const std::vector<std::string>& arguments) {
     if (!line.has("plugin"))
         throw Error(ErrorCategory::bad_request, "candela describe needs a plugin, such as reflection/phong");
     candela::Registry registry = registry_from(line);
-    const candela::PluginFile& file = plugin_called(line.all("plugin").front(), registry);
+    const std::string name = line.all("plugin").front();
+    const candela::PluginFile& file = plugin_called(name, registry);
     if (line.has("json")) {
         std::cout << printable_json(candela::to_json(file.manifest));
     } else {
-        print(file);
+        print(file, candela::plugin_id(file.manifest.kind,
+                                       candela::is_kernel_file(name) ? name : file.manifest.name));
     }
     return 0;
 }

@@ -58,7 +58,7 @@ Json json_of(const std::vector<KernelValue>& steps) {
 Json json_of(const Explanation& e, const PointTrace& point, const LightTrace& light,
              const std::string& reflection) {
     const candela::LightSource& source = e.scene.lights[light.light];
-    Json result = {{"light", source.label.text()}, {"type", source.model.name}};
+    Json result = {{"light", source.label.text()}, {"type", candela::shown_model_name(source.model.name)}};
     if (light.sample == LightTrace::k_ambient) {
         result["ambient"] = json_of(light.diffuse);
     } else {
@@ -102,7 +102,7 @@ Json json_of(const Explanation& e, const InspectedFragment& fragment) {
     const candela::Object& object = e.scene.objects[fragment.object];
     Json points = Json::array();
     for (const PointTrace& point : fragment.points)
-        points.push_back(json_of(e, point, object.reflection.name));
+        points.push_back(json_of(e, point, candela::shown_model_name(object.reflection.name)));
     return {{"object", object.label.text()},
             {"index", fragment.object},
             {"type", object.shape.name},
@@ -110,7 +110,7 @@ Json json_of(const Explanation& e, const InspectedFragment& fragment) {
             {"barycentric", json_of(fragment.barycentric)},
             {"weight", fragment.weight},
             {"position", json_of(fragment.position)},
-            {"shading", object.shading.name},
+            {"shading", candela::shown_model_name(object.shading.name)},
             {"shaded_per", name_of(fragment.rate)},
             {"points", std::move(points)},
             {"I", json_of(fragment.intensity)}};

@@ -82,8 +82,8 @@ class Writer {
                          object.shape.name, fragment.triangle, text_of(fragment.barycentric),
                          fragment.weight < 1 ? fmt::format(", {:.4g} of the pixel", fragment.weight) : ""));
         value(1, "p", fragment.position, "metres");
-        line(1,
-             fmt::format("{} shading: light is evaluated {}", object.shading.name, place_of(fragment.rate)));
+        line(1, fmt::format("{} shading: light is evaluated {}",
+                            candela::shown_model_name(object.shading.name), place_of(fragment.rate)));
         for (std::size_t i = 0; i < fragment.points.size(); ++i) {
             if (fragment.points.size() > 1) line(1, fmt::format("vertex {}", i + 1));
             write(fragment.points[i], object);
@@ -109,8 +109,9 @@ class Writer {
     void write(const LightTrace& light, const PointTrace& point, const candela::Object& object) {
         const candela::LightSource& source = e_.scene.lights[light.light];
         const bool is_ambient = light.sample == LightTrace::k_ambient;
-        line(2, fmt::format("light {}, {}{}", source.label.text(), source.model.name,
-                            light.sample > 0 ? fmt::format(", sample {}", light.sample) : ""));
+        line(2,
+             fmt::format("light {}, {}{}", source.label.text(), candela::shown_model_name(source.model.name),
+                         light.sample > 0 ? fmt::format(", sample {}", light.sample) : ""));
         if (is_ambient) {
             value(3, "arriving", light.diffuse);
         } else {
@@ -127,7 +128,7 @@ class Writer {
             if (light.specular != light.diffuse) value(3, "arriving, for highlights", light.specular);
         }
         steps(4, e_.light_steps(light));
-        line(3, fmt::format("{} reflection", object.reflection.name));
+        line(3, fmt::format("{} reflection", candela::shown_model_name(object.reflection.name)));
         steps(4, e_.reflection_steps(light));
         if (is_ambient) return value(3, "I_a", light.reflected_ambient);
         value(3, "I_d", light.reflected_diffuse);

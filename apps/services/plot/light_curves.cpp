@@ -32,9 +32,9 @@ class PlacedLight {
         light_ = registry.create<candela::Light>(model.name, model.parameters, scene.image.color_management);
         if (light_->sample_count() == 0)
             throw Error(ErrorCategory::bad_request,
-                        fmt::format("light/{} comes from everywhere: its intensity depends on neither an "
-                                    "angle nor a distance",
-                                    model.name));
+                        fmt::format("{} comes from everywhere: its intensity depends on neither an angle nor "
+                                    "a distance",
+                                    candela::plugin_id(candela::PluginKind::light, model.name)));
         const auto& parameters = registry.require(candela::PluginKind::light, model.name).manifest.parameters;
         const auto runtime = model.parameters.runtime(scene.image.color_management);
         for (std::size_t i = 0; i < parameters.size(); ++i) {

@@ -76,7 +76,8 @@ const candela::Parameter& number_called(const std::string& name, const NamedMode
     }
     const std::string meant = candela::suggestion(name, numbers);
     throw Error(ErrorCategory::bad_request,
-                fmt::format("reflection/{} has no number '{}' to fit; it has {}{}{}", model.name, name,
+                fmt::format("{} has no number '{}' to fit; it has {}{}{}",
+                            candela::plugin_id(candela::PluginKind::reflection, model.name), name,
                             numbers.empty() ? "none" : fmt::format("{}", fmt::join(numbers, ", ")),
                             meant.empty() ? "" : "; ", meant));
 }
