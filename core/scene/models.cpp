@@ -146,23 +146,46 @@ Model ModelChooser::reflection_for(const TableNode& object, const std::string& l
                                entry != nullptr ? entry->key_place : place,
                                "",
                                hints_for("material", tables_.registry())};
-    report_unknown_material_keys(material, *plugin, context);
+    report_unknown_material_keys(material, *plugin, context,
+                                 request_.reflection ? model_in_scene(object) : std::nullopt);
     return {model->name, read_parameters(material, plugin->schema, context, tables_.diagnostics(),
                                          plugin->manifest.relations)
                              .set};
 }
 
+/// The reflection model of an object according to the scene, whatever a setting says.
+std::optional<ModelChooser::Named> ModelChooser::model_in_scene(const TableNode& object) {
+    const auto own = named_by(object, "reflection", std::nullopt);
+    const TableNode* const table = tables_.single("reflection");
+    return own || table == nullptr ? own : named_by(*table, "model", std::nullopt);
+}
+
+/// Whether a key of a material belongs to the model that `replaced` names. If that is a kernel file that
+/// cannot be used, nobody knows: a warning says so once, and all keys count as its own.
+bool ModelChooser::belongs_to(const Named& replaced, const std::string& key) {
+    const PluginFile* const plugin = tables_.registry().find(PluginKind::reflection, replaced.name);
+    if (plugin != nullptr) return parameter_named(plugin->manifest.parameters, key) != nullptr;
+    if (!is_kernel_file(replaced.name)) return false;
+    if (unusable_kernels_.insert(replaced.name).second)
+        tables_.diagnostics().warning(
+            replaced.place, fmt::format("'{}' cannot be used, so it is unknown which material keys it reads; "
+                                        "unknown ones are ignored",
+                                        shown_model_name(replaced.name)));
+    return true;
+}
+
 /// If a reflection model is set for all objects, a material written for another model is not an error: keys
-/// unknown to the model in use are ignored.
+/// of the model that is `replaced`, or of an installed one, are ignored.
 void ModelChooser::report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,
-                                                const TableContext& context) {
+                                                const TableContext& context,
+                                                const std::optional<Named>& replaced) {
     const std::vector<std::string> known_keys = names_in(plugin.manifest.parameters);
     TableNode unknown;
     for (const TableNode::Entry& entry : material.entries) {
         if (std::ranges::find(known_keys, entry.key) != known_keys.end()) continue;
         const std::vector<std::string> others = models_with(entry.key);
         if (others.empty()) {
-            unknown.entries.push_back(entry);
+            if (!replaced || !belongs_to(*replaced, entry.key)) unknown.entries.push_back(entry);
         } else if (!request_.reflection) {
             tables_.diagnostics().error(
                 entry.key_place,

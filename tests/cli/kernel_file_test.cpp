@@ -196,6 +196,44 @@ TEST_CASE("a kernel is compiled once, and again when its text has changed", "[ke
     write_file(place.directory / "half.kernel", brighter);
     CHECK(place.image({"render", "scene.toml"}) != first);
 }
+
+namespace {
+
+/// A scene whose material has a key that only half.kernel, changed accordingly, knows.
+void use_own_key(const Workspace& place) {
+    std::string kernel = k_half;
+    kernel.replace(kernel.find("vec3 kd"), 7, "vec3 amount");
+    kernel.replace(kernel.find("m.kd"), 4, "m.amount");
+    write_file(place.directory / "half.kernel", kernel);
+    write_file(place.directory / "scene.toml",
+               Workspace::scene("reflection = \"half.kernel\"\nmaterial = { amount = 0.5 }", "point"));
+}
+
+}  // namespace
+
+TEST_CASE("a scene with a kernel file's material can be switched to another model", "[kernel_files]") {
+    const Workspace place;
+    use_own_key(place);
+    write_file(place.directory / "phong.toml", Workspace::scene("reflection = \"phong\"", "point"));
+    write_file(
+        place.directory / "table.toml",
+        Workspace::scene("material = { amount = 0.5 }\n[reflection]\nmodel = \"half.kernel\"", "point"));
+    const std::string phong = place.image({"render", "phong.toml"});
+    CHECK(place.image({"render", "scene.toml", "--reflection", "phong"}) == phong);
+    CHECK(place.image({"render", "table.toml", "--reflection", "phong"}) == phong);
+    succeeded(
+        place.candela({"compare", "scene.toml", "--reflection", "phong,./half.kernel", "-o", "sheet.ppm"}));
+    const Words wrong{"check", "scene.toml", "--reflection",
+                      "phong", "--set",      "object.ball.material.amoumt=1"};
+    expect(place.candela(wrong), 3, {"unknown key 'amoumt' in [object.material] of 'ball'"});
+
+    // Nobody knows what a broken kernel reads.
+    write_file(place.directory / "half.kernel", "struct");
+    expect(place.candela({"check", "scene.toml", "--reflection", "phong"}), 0,
+           {"scene.toml:", "warning: 'half.kernel' cannot be used, so it is unknown which material keys"});
+    expect(place.candela({"check", "scene.toml"}), 3, {"half.kernel:1:"});
+}
+
 TEST_CASE("messages call a kernel file by its path", "[kernel_files]") {
     const Workspace place;
     expect(place.candela({"check", "scene.toml", "--set", "object.ball.material.kx=1"}), 3,

@@ -1,6 +1,7 @@
 module;
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,14 +42,17 @@ class ModelChooser {
     bool is_missing(const std::string& table) const;
     void use_defaults_if_agreed();
     void read_shading_table();
+    std::optional<Named> model_in_scene(const TableNode& object);
+    bool belongs_to(const Named& replaced, const std::string& key);
     void report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,
-                                      const TableContext& context);
+                                      const TableContext& context, const std::optional<Named>& replaced);
     std::vector<std::string> models_with(const std::string& key);
 
     const SceneRequest& request_;
     SceneTables& tables_;
     std::optional<Named> shading_, reflection_;
     std::optional<ParamSet> shading_parameters_;
+    std::set<std::string> unusable_kernels_;
 };
 
 }  // namespace candela
