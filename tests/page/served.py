@@ -23,6 +23,10 @@ light = [{{type = "directional", direction = [-1, -1, -1]}}]
 object = [{{type = "cube", color = [{red}, {green}, 40]}}]
 """
 
+# Lambert's law under a name that no plugin has.
+OWN_KERNEL = pathlib.Path(__file__).parents[2].joinpath("plugins/reflection/lambert.kernel").read_text().replace("lambert_", "own_").replace(
+    "LambertMaterial", "OwnMaterial")
+
 
 def status_of(process):
     """Resident memory in kB, threads, open files; nothing if the process has ended."""
@@ -63,14 +67,18 @@ def tcp_sockets_of(process):
 
 
 class View:
-    def __init__(self, name, browser=None, options=()):
-        """`browser`: the text of a program that replaces xdg-open; without it, no browser is opened."""
+    def __init__(self, name, browser=None, options=(), files=None):
+        """`browser`: the text of a program that replaces xdg-open; without it, no browser is opened. `files`: texts, by their names in the
+        folder; one of them may be scene.toml."""
         self.folder = SCRATCH / name
         shutil.rmtree(self.folder, ignore_errors=True)
         self.temporary = self.folder / "tmp"
         self.temporary.mkdir(parents=True)
         self.file = self.folder / "scene.toml"
         self.save(100)
+        for file, text in (files or {}).items():
+            self.folder.joinpath(file).parent.mkdir(exist_ok=True)
+            self.folder.joinpath(file).write_text(text)
         self.log = open(self.folder / "log.txt", "w+")
         environment = dict(ENVIRONMENT, TMPDIR=str(self.temporary))
         if browser is not None:

@@ -13,7 +13,7 @@ import subprocess
 import time
 import unittest
 
-from served import COMMAND, ENVIRONMENT, LONGEST, View, children_of, status_of, tcp_sockets_of
+from served import COMMAND, ENVIRONMENT, LONGEST, OWN_KERNEL, View, children_of, status_of, tcp_sockets_of
 
 JUNK = int(os.environ.get("CANDELA_TEST_REQUESTS", "2000"))
 # Sanitizers hold back freed memory, and record each thread's history.
@@ -391,6 +391,29 @@ class ServerTest(unittest.TestCase):
         kernel.write_text(right)
         view.wait_for_color(100)
         self.assertEqual(view.end(), 0)
+
+    def started(self, name, **options):
+        view = View(f"{self._testMethodName}-{name}", **options)
+        self.addCleanup(lambda: self.assertEqual(view.end(), 0))
+        return view
+
+    def test_a_kernel_file_that_a_scene_names_is_followed_though_it_was_wrong_or_missing(self):
+        scene = View.text(100).replace('"lambert"', '"kernels/own.kernel"')
+        wrong = OWN_KERNEL.replace("KERNEL Reflected", "KERNEL Reflecting")
+        for name, files, problem in (("wrong", {"scene.toml": scene, "kernels/own.kernel": wrong}, b"Reflecting"),
+                                     ("missing", {"scene.toml": scene, "kernels/other": ""}, b"does not exist")):
+            view = self.started(name, files=files)
+            with view.events() as connection:
+                until(connection, problem)
+            view.folder.joinpath("kernels/own.kernel").write_text(OWN_KERNEL)
+            view.wait_for_color(100)
+        view = self.started("later", files={"kernels/own.kernel": wrong})
+        view.wait_for_color(100)
+        with view.events() as connection:
+            view.replace(scene.replace("100", "150"))
+            until(connection, b"Reflecting")
+        view.folder.joinpath("kernels/own.kernel").write_text(OWN_KERNEL)
+        view.wait_for_color(150)
 
     def test_programs_that_it_starts_have_none_of_its_sockets(self):
         # Open while the processes start.

@@ -28,10 +28,10 @@ using candela::ErrorCategory;
 namespace {
 
 /// For programs that generate again when an input changes.
-void write_inputs(const SceneToExport& scene, const std::string& file) {
-    require_no_scene_file(file, scene.inputs, "--inputs");
+void write_inputs(const std::vector<fs::path>& inputs, const std::string& file) {
+    require_no_scene_file(file, inputs, "--inputs");
     Json names = Json::array();
-    for (const fs::path& input : scene.inputs) names.push_back(fs::absolute(input).string());
+    for (const fs::path& input : inputs) names.push_back(fs::absolute(input).string());
     candela::write_text_file(file, json_text(names, 2) + "\n");
 }
 
@@ -132,7 +132,11 @@ int run_generate(const std::vector<std::string>& arguments) {
     candela::Diagnostics diagnostics;
     const auto scene = scene_to_export(line, registry, diagnostics);
     report(diagnostics);
-    if (!scene) return static_cast<int>(exit_code_of(diagnostics));
+    if (!scene) {
+        // These may be all that is wrong with it.
+        if (line.has("inputs")) write_inputs(registry.kernel_files(), line.get<std::string>("inputs"));
+        return static_cast<int>(exit_code_of(diagnostics));
+    }
     const auto exported = export_for(target, *scene, line, registry);
     const std::vector<candela::ExportedFile> files = program_for(target, exported, line).files;
     if (is_printed) {
@@ -141,7 +145,7 @@ int run_generate(const std::vector<std::string>& arguments) {
         require_no_input_in(directory, names_of(files), *scene, "output");
         write_program(files, directory);
     }
-    if (line.has("inputs")) write_inputs(*scene, line.get<std::string>("inputs"));
+    if (line.has("inputs")) write_inputs(scene->inputs, line.get<std::string>("inputs"));
     if (!is_printed) say_afterwards([&] { return sizes_of(files, directory); });
     if (line.has("build") || line.has("run")) target.build(directory);
     return line.has("run") ? target.show(directory) : 0;

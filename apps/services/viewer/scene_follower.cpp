@@ -197,7 +197,7 @@ void SceneFollower::watch(bool is_right) {
         // The files that an invalid scene names are unknown.
         if (!is_right) folders.push_back(fs::path(scene).parent_path());
     }
-    // A kernel file that has never been valid is not among the inputs.
+    // A kernel file among --models that has never been valid is not among the inputs.
     for (const std::string& argument : job_.arguments) {
         if (candela::is_kernel_file(argument)) files.emplace_back(argument.substr(argument.find('=') + 1));
     }
@@ -240,8 +240,8 @@ bool SceneFollower::make_page() {
     const bool is_news = result.err != latest_.problems;
     latest_.problems = result.err;
     const bool is_right = result.exit_code == 0;
+    note_inputs(is_right);
     if (is_right) {
-        inputs_ = names_listed_in(folder_.path() / k_inputs);
         // Saved unchanged: existing pages stay valid.
         if (latest_.page == nullptr || result.out != latest_.page->html()) {
             latest_.page = std::make_shared<const view::Page>(std::move(result.out));
@@ -254,6 +254,21 @@ bool SceneFollower::make_page() {
     }
     if (is_news || is_right) publish_(latest_);
     return is_right;
+}
+
+/// Reads the list of the scene's files. That of an invalid scene is incomplete, so what was in the last one
+/// stays in it.
+void SceneFollower::note_inputs(bool is_complete) {
+    const fs::path list = folder_.path() / k_inputs;
+    std::error_code problem;
+    if (!is_complete && !fs::exists(list, problem)) return;
+    std::vector<fs::path> listed = names_listed_in(list);
+    if (!is_complete) {
+        std::erase_if(
+            listed, [&](const fs::path& file) { return std::ranges::find(inputs_, file) != inputs_.end(); });
+        listed.insert(listed.begin(), inputs_.begin(), inputs_.end());
+    }
+    inputs_ = std::move(listed);
 }
 
 bool SceneFollower::has_input_since(fs::file_time_type time) const {

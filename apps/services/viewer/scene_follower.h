@@ -81,6 +81,7 @@ class SceneFollower {
     void follow();
     /// Returns whether the scene became a page.
     bool make_page();
+    void note_inputs(bool is_complete);
     void watch(bool is_right);
     /// Starts a program that loads the plugins and waits for the next save.
     void get_ready();
