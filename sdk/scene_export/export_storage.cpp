@@ -66,8 +66,8 @@ ExportedMesh ExportStorage::in_world_space(std::size_t object) {
     make_face_normals(placed.mesh);
     std::vector<std::unique_ptr<ShadingModel>> models;
     for (std::size_t i = 0; i < scene.shadings.size(); ++i)
-        models.push_back(registry.create<ShadingModel>(scene.shadings[i].plugin->name, from.shading_values[i],
-                                                       scene.image.color_management));
+        models.push_back(registry.create<ShadingModel>(names.at(scene.shadings[i].plugin),
+                                                       from.shading_values[i], scene.image.color_management));
     std::vector<Vec3Arrays> all(models.size());
     parallel_for(models.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) all[i] = vertex_normals(placed, *models[i]);
@@ -107,7 +107,7 @@ bool ExportStorage::has_default_normals(std::size_t object, std::size_t shading)
     };
     const Object& from = objects[object];
     const auto model = registry.create<ShadingModel>(
-        scene.shadings[shading].plugin->name, from.shading_values[shading], scene.image.color_management);
+        names.at(scene.shadings[shading].plugin), from.shading_values[shading], scene.image.color_management);
     const Mesh expected = build_mesh(*from.tessellator, {}, from.transform, Default());
     const Mesh actual = build_mesh(*from.tessellator, {}, from.transform, *model);
     return std::ranges::equal(expected.vertices, actual.vertices, {}, &MeshVertex::normal,

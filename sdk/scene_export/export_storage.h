@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>  // before <memory>, whose std::align depends on it
 #include <deque>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -60,6 +61,8 @@ struct ExportStorage : ExportedGeometry {
     std::deque<std::string> labels;
     std::vector<float> tables;
     std::vector<PlacedTable> placed_tables;
+    std::map<const PluginDescriptor*, std::string>
+        names;  // of shading and reflection models, in the registry
     std::vector<ExportedModel> light_models;
     std::vector<ExportedLight> lights;
     std::deque<std::vector<PunctualLight>> punctual;  // the lights point into it

@@ -131,7 +131,7 @@ class Exporter {
                                   const std::vector<const char*>& functions) {
         const PluginDescriptor& loaded = registry_.descriptor(kind, name);
         if (request_.abilities.models_without_kernel) return loaded;
-        const std::string id = fmt::format("{}/{}", name_of(kind), name);
+        const std::string id = plugin_id(kind, name);
         if (loaded.kernel.text == nullptr)
             throw Error(ErrorCategory::failure, fmt::format("{} {}", id, k_no_kernel));
         for (const char* const function : functions) {
@@ -143,6 +143,7 @@ class Exporter {
     }
 
     const char* kept(std::string label) { return to_.labels.emplace_back(std::move(label)).c_str(); }
+    const char* id_of(PluginKind kind, const std::string& name) { return kept(plugin_id(kind, name)); }
 
     void add(const LightSource& light) {
         RenderLight source = render_light(registry_, light.model, scene_.image.color_management);
@@ -151,7 +152,8 @@ class Exporter {
         if (source.has_ambient) functions.push_back("illuminate_ambient");
         const PluginDescriptor& loaded = model(PluginKind::light, light.model.name, functions);
         to_.lights.push_back({.label = kept(light.label.text()),
-                              .model = put(to_.light_models, ExportedModel{&loaded}),
+                              .model = put(to_.light_models, ExportedModel{&loaded, id_of(PluginKind::light,
+                                                                                          light.model.name)}),
                               .values = to_.kept(loaded, light.model.parameters,
                                                  [&]() -> const Light* { return source.light.get(); })});
         if (!source.data) return;
@@ -165,13 +167,14 @@ class Exporter {
         const auto instance = made<ShadingModel>(name, values);
         ExportedShading exported;
         exported.plugin = &model(PluginKind::shading, name, {"normal"});
+        exported.id = id_of(PluginKind::shading, name);
         exported.rate = instance->shading_rate();
         exported.needs = exported.plugin->shading_needs;
         if (exported.needs.triangle && !request_.abilities.triangle &&
             !request_.abilities.models_without_kernel) {
-            throw Error(ErrorCategory::failure, fmt::format("shading/{} reads the vertices of its triangle, "
+            throw Error(ErrorCategory::failure, fmt::format("{} reads the vertices of its triangle, "
                                                             "which this target's programs do not provide",
-                                                            name));
+                                                            exported.id));
         }
         keep_name(to_.shadings, *exported.plugin, PluginKind::shading, name);
         put(to_.shadings, exported);
@@ -184,11 +187,12 @@ class Exporter {
         exported.shows_surroundings = extension_of<EnvironmentReflection>(*instance) != nullptr;
         if (exported.shows_surroundings && !request_.abilities.surroundings) {
             throw Error(ErrorCategory::failure,
-                        fmt::format("reflection/{} shows what is behind and around an object by following "
-                                    "rays through it; generated programs do not do that",
-                                    name));
+                        fmt::format("{} shows what is behind and around an object by following rays "
+                                    "through it; generated programs do not do that",
+                                    plugin_id(PluginKind::reflection, name)));
         }
         exported.plugin = &model(PluginKind::reflection, name, {"reflect", "reflect_ambient"});
+        exported.id = id_of(PluginKind::reflection, name);
         keep_name(to_.reflections, *exported.plugin, PluginKind::reflection, name);
         put(to_.reflections, exported);
     }
@@ -198,14 +202,14 @@ class Exporter {
     template <class Exported>
     void keep_name(const std::vector<Exported>& others, const PluginDescriptor& plugin, PluginKind kind,
                    const std::string& name) {
-        names_[&plugin] = name;
+        to_.names[&plugin] = name;
         for (const Exported& other : others) {
             if (other.plugin == &plugin || std::string_view(other.plugin->name) != plugin.name) continue;
             throw Error(
                 ErrorCategory::bad_request,
                 fmt::format("the {} models '{}' and '{}' have kernel functions of the same names, which a "
                             "program cannot contain; rename one of them",
-                            name_of(kind), names_[other.plugin], name));
+                            name_of(kind), other.id, plugin_id(kind, name)));
         }
     }
 
@@ -226,7 +230,10 @@ class Exporter {
 
     void add_extra(const std::string& name) {
         constexpr PluginKind k_kinds[] = {PluginKind::shading, PluginKind::reflection};
-        if (is_kernel_file(name)) return add_default(registry_.require_kernel(name).manifest.kind, name);
+        if (is_kernel_file(name)) {
+            const std::string file = absolute_model_name(name);
+            return add_default(registry_.require_kernel(file).manifest.kind, file);
+        }
         if (name == "all") {
             for (const PluginKind kind : k_kinds) {
                 for (const std::string& each : registry_.names(kind)) {
@@ -309,16 +316,21 @@ class Exporter {
         ExportedObject exported{
             .label = kept(name_in(object.label)),
             .color = object.color,
-            .shape = {&registry_.descriptor(PluginKind::shape, object.shape.name)},
+            .shape = {&registry_.descriptor(PluginKind::shape, object.shape.name),
+                      id_of(PluginKind::shape, object.shape.name)},
             .shape_values =
                 to_.kept(registry_.descriptor(PluginKind::shape, object.shape.name), object.shape.parameters,
                          [&]() -> const Shape* { return own.tessellator.get(); }),
             .transform = object.transform,
             .color_texture = texture_of(object),
             .color_texture_repeats = object.color_texture_wrap == TextureWrap::repeat};
+        // Not by their names: files with the same text are the same plugin.
+        const PluginDescriptor& shading = registry_.descriptor(PluginKind::shading, object.shading.name);
+        const PluginDescriptor& reflection =
+            registry_.descriptor(PluginKind::reflection, object.reflection.name);
         for (std::size_t i = 0; i < to_.shadings.size(); ++i) {
-            const std::string& name = names_.at(to_.shadings[i].plugin);
-            const bool is_own = name == object.shading.name;
+            const std::string& name = to_.names.at(to_.shadings[i].plugin);
+            const bool is_own = to_.shadings[i].plugin == &shading;
             if (is_own) exported.shading = i;
             own.shading_values.push_back(is_own ? object.shading.parameters
                                                 : values_for(PluginKind::shading, name, index));
@@ -327,8 +339,8 @@ class Exporter {
             }));
         }
         for (std::size_t i = 0; i < to_.reflections.size(); ++i) {
-            const std::string& name = names_.at(to_.reflections[i].plugin);
-            const bool is_own = name == object.reflection.name;
+            const std::string& name = to_.names.at(to_.reflections[i].plugin);
+            const bool is_own = to_.reflections[i].plugin == &reflection;
             if (is_own) exported.reflection = i;
             const ParamSet values =
                 is_own ? object.reflection.parameters : values_for(PluginKind::reflection, name, index);
@@ -342,7 +354,6 @@ class Exporter {
     Registry& registry_;
     const Scene& scene_;
     const ExportRequest& request_;
-    std::map<const PluginDescriptor*, std::string> names_;
     std::map<std::pair<PluginKind, std::string>, std::optional<Scene>> with_;
 };
 

@@ -141,7 +141,7 @@ std::string constants_type(const ExportedModel& model) {
             return std::string(tokens[i + 1].text);
     }
     throw std::runtime_error(
-        fmt::format("the kernel of {} does not declare the return type of {}", id_of(model), name));
+        fmt::format("the kernel of {} does not declare the return type of {}", model.id, name));
 }
 
 std::string prepared(const ExportedModel& model, const std::string& parameters) {
@@ -158,10 +158,6 @@ std::string struct_text(const ExportedModel& model, const ExportedValues& values
     return prepared(model, fmt::format("{}{{{}}}", plugin.kernel.parameters, fmt::join(members, ", ")));
 }
 
-std::string id_of(const ExportedModel& model) {
-    return fmt::format("{}/{}", name_of(model.plugin->kind), model.plugin->name);
-}
-
 std::vector<ExportedModel> models_of(const ExportedScene& scene) {
     std::vector<ExportedModel> all(scene.light_models.begin(), scene.light_models.end());
     all.insert(all.end(), scene.reflections.begin(), scene.reflections.end());
@@ -175,7 +171,7 @@ void require_different_names(const ExportedScene& scene) {
     for (const ExportedObject& object : scene.objects) all.push_back(object.shape);
     for (const ExportedModel& model : all) {
         if (model.plugin->kernel.text == nullptr) continue;
-        const std::string id = id_of(model);
+        const std::string id = model.id;
         for (const std::string& name : declared_names(model.plugin->kernel.text)) {
             const auto [at, is_new] = whose.try_emplace(name, id);
             if (is_new || at->second == id) continue;

@@ -88,7 +88,7 @@ std::optional<Highlight> highlight_of(const ExportedModel& model, const Exported
 
 void approximate_shading(const ExportedShading& shading, FileSink& files) {
     const auto say = [&](const char* how) {
-        files.approximate(fmt::format("shading/{} {}", shading.plugin->name, how).c_str());
+        files.approximate(fmt::format("{} {}", shading.id, how).c_str());
     };
     if (shading.rate == ShadingRate::face)
         return say("is lit at each point of a face, not once for all of it");

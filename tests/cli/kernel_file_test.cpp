@@ -245,3 +245,12 @@ TEST_CASE("messages call a kernel file by its path", "[kernel_files]") {
                {" half.kernel reflection\n"});
 }
 
+TEST_CASE("a shading model in a kernel file can be in a generated program", "[kernel_files]") {
+    const Workspace place;
+    write_file(place.directory / "smooth.kernel",
+               "KERNEL vec3 smooth_normal(ShadingPoint p) { return normalize(p.vertex_normal); }\n");
+    succeeded(place.candela({"generate", "scene.toml", "--target", "webgl", "-o", "page", "--shading",
+                             "./smooth.kernel", "--models", "half.kernel,phong"}));
+    CHECK(holds(read_file(place.directory / "page/scene.html"), "\"id\":\"smooth.kernel\""));
+}
+

@@ -8,8 +8,9 @@ from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
 
 import scenes
-from generated import COMMAND, ENVIRONMENT, MOST_DIFFERENT, SMALL_WINDOW, TWO_STEPS, Generated, PageTest, candela
+from generated import COMMAND, ENVIRONMENT, MOST_DIFFERENT, SCRATCH, SMALL_WINDOW, TWO_STEPS, Generated, PageTest, candela
 from pictures import Picture
+from served import OWN_KERNEL
 from viewing import Viewing
 
 EDITOR = "document.querySelector('#formula-body .CodeMirror').CodeMirror"
@@ -162,6 +163,26 @@ class Formulas(Editing, PageTest):
         self.browser.click("formula-keep")
         self.browser.rest(0.3)
         self.assertIn("candela plugin new reflection my-phong --from reflection/phong --kernel my-phong.kernel", self.browser.text("#formula-kept"))
+
+    def test_a_kernel_file_is_called_by_its_path_in_commands(self):
+        folder = SCRATCH / "own-kernel"
+        folder.mkdir(parents=True, exist_ok=True)
+        folder.joinpath("own.kernel").write_text(OWN_KERNEL)
+        generated = Generated("own-kernel", scenes.PERSPECTIVE, options=("--reflection", folder / "own.kernel"))
+        path = generated.scene["reflection_models"]["own"]["id"]
+        self.assertTrue(path.endswith("own-kernel/own.kernel"), path)
+        self.browser.open(generated.address)
+        self.open_editor("reflection/own")
+        self.browser.click("formula-keep")
+        self.browser.rest(0.3)
+        self.assertIn(f"--from {path} --kernel my-model.kernel", self.browser.text("#formula-kept"))
+        for model, name in (("own", path), ("ggx", "ggx")):
+            self.browser.enter("#models [data-path=reflection] select", model)
+            options = self.browser.driver.execute_async_script("""
+                const done = arguments[0];
+                navigator.clipboard.writeText = (text) => { done(text); return Promise.resolve(); };
+                document.getElementById("copy-options").click();""")
+            self.assertEqual(options, f"--reflection {name}")
 
 
 class Keeping(Editing, Viewing):

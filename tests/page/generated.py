@@ -11,7 +11,7 @@ from pictures import Picture
 
 COMMAND = os.environ.get("CANDELA_TEST_COMMAND") or os.environ["CANDELA"]
 SCRATCH = pathlib.Path(os.environ.get("CANDELA_TEST_SCRATCH") or tempfile.mkdtemp(prefix="candela-page-")).absolute()
-ENVIRONMENT = dict(os.environ, XDG_DATA_HOME=str(SCRATCH / "nothing"), CANDELA_PLUGIN_PATH="")
+ENVIRONMENT = dict(os.environ, XDG_DATA_HOME=str(SCRATCH / "nothing"), XDG_CACHE_HOME=str(SCRATCH / "cache"), CANDELA_PLUGIN_PATH="")
 
 # For tests that request pictures and ignore the screen, where drawing them a second time would take most of the time.
 SMALL_WINDOW = (320, 240)

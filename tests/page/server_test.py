@@ -415,6 +415,22 @@ class ServerTest(unittest.TestCase):
         view.folder.joinpath("kernels/own.kernel").write_text(OWN_KERNEL)
         view.wait_for_color(150)
 
+    def test_a_kernel_file_is_called_by_its_path_in_the_page_and_its_requests(self):
+        scene = View.text(100).replace('"lambert"', '"own.kernel"')
+        view = self.started("named", files={"scene.toml": scene, "own.kernel": OWN_KERNEL})
+        view.wait_for_color(100)
+        self.assertIn(b'"id":"own.kernel"', view.page())
+        self.assertIn(b'"id":"reflection/phong"', view.page())
+        own = {"Origin": f"http://127.0.0.1:{view.port}"}
+        answer = view.get(f"/{view.token}/keep?model=own.kernel&name=mine", method="POST", body=OWN_KERNEL.encode(), **own)
+        self.assertIn(b" 200 ", answer.split(b"\r\n")[0], answer)
+        shown = view.get(f"/{view.token}/reference.png?reflection=own.kernel")
+        self.assertEqual(shown, view.get(f"/{view.token}/reference.png?"))
+        self.assertIn(b" 200 ", shown.split(b"\r\n")[0], shown)
+        self.assertIn(b" 200 ", view.get(f"/{view.token}/save?reflection=phong", method="POST", **own).split(b"\r\n")[0])
+        self.assertIn(b" 200 ", view.get(f"/{view.token}/save?reflection=own.kernel", method="POST", **own).split(b"\r\n")[0])
+        self.assertEqual(view.file.read_text(), scene)
+
     def test_programs_that_it_starts_have_none_of_its_sockets(self):
         # Open while the processes start.
         idle = [self.view.connect() for _ in range(20)]

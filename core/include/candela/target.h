@@ -27,6 +27,7 @@ struct ExportedValues {
 /// formula, the parameters and the kernel's text.
 struct ExportedModel {
     const PluginDescriptor* plugin = nullptr;
+    const char* id = "";  // as commands call it: "reflection/phong", or the path of a kernel file
 };
 
 struct ExportedShading : ExportedModel {

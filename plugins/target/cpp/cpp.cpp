@@ -157,7 +157,7 @@ class CppWriter {
         std::string text;
         std::set<std::string> done;
         const auto add = [&](const ExportedModel& model) {
-            if (!done.insert(id_of(model)).second) return;
+            if (!done.insert(model.id).second) return;
             text += model.plugin->kernel.text;
             if (text.back() != '\n') text += '\n';
             text += '\n';

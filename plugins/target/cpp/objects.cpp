@@ -166,7 +166,7 @@ void CppObjects::require_default_normals(std::size_t object) const {
         throw std::runtime_error(
             fmt::format("{} makes its own vertex normals, which its kernel does not describe (there is no "
                         "function {}_corner_weight), so a C++ program cannot make them",
-                        id_of(model), model.plugin->kernel.prefix));
+                        model.id, model.plugin->kernel.prefix));
     }
 }
 

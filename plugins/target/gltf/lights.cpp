@@ -66,7 +66,7 @@ class Lights {
         : scene_(scene), document_(document), nodes_(nodes), files_(files) {}
 
     void add(const ExportedLight& light) {
-        const std::string model = scene_.light_models[light.model].plugin->name;
+        const std::string model = scene_.light_models[light.model].id;
         if (!light.is_data) return leave_out(model);
         if (!(light.ambient == Rgb{})) leave_out(model);
         for (const PunctualLight& sample : light.punctual) add(light, sample, model);
@@ -75,7 +75,7 @@ class Lights {
 
   private:
     void approximate(const std::string& model, const char* how) {
-        files_.approximate(fmt::format("light/{} {}", model, how).c_str());
+        files_.approximate(fmt::format("{} {}", model, how).c_str());
     }
     void leave_out(const std::string& model) {
         approximate(model, "has no counterpart in glTF and is left out");

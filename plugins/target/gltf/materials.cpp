@@ -53,18 +53,17 @@ std::optional<float> metalness_of(Vec3 color, Vec3 diffuse, Vec3 mirrored) {
 
 Surface surface_of(const ExportedReflection& model, const ExportedValues& values, Vec3 color,
                    FileSink& files) {
-    const std::string_view name = model.plugin->name;
+    const std::string_view id = model.id;
     const Vec3 diffuse = target::rgb_value(model, values, "kd").value_or(Vec3{1, 1, 1});
     const auto highlight = target::highlight_of(model, values);
     if (!highlight || highlight->specular == Vec3{}) {
         // Without the mirrored part, glTF's diffuse light is Lambert's.
-        if (name != "lambert" && name != "phong" && name != "blinn-phong")
-            files.approximate(fmt::format("reflection/{} becomes Lambert's diffuse light", name).c_str());
+        if (id != "reflection/lambert" && id != "reflection/phong" && id != "reflection/blinn-phong")
+            files.approximate(fmt::format("{} becomes Lambert's diffuse light", id).c_str());
         return {.base = target::times(diffuse, color), .mirrored = {}, .has_specular = false};
     }
     files.approximate(
-        fmt::format("reflection/{} becomes metallic-roughness, whose highlights rise towards grazing angles",
-                    name)
+        fmt::format("{} becomes metallic-roughness, whose highlights rise towards grazing angles", id)
             .c_str());
     const float alpha = highlight->alpha;
     Surface result{.roughness = std::sqrt(alpha)};

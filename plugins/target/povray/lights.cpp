@@ -26,7 +26,7 @@ struct Fading {
 Fading fading_of(const PunctualLight& light, const std::string& model, FileSink& files) {
     const bool is_linear = light.linear > 0, is_quadratic = light.quadratic > 0;
     if (is_quadratic && (is_linear || light.constant > 0))
-        files.approximate(fmt::format("light/{} fades with the square of the distance alone", model).c_str());
+        files.approximate(fmt::format("{} fades with the square of the distance alone", model).c_str());
     if (is_quadratic)
         return {.scale = fmt::format(" / (2 * {0} * {0}{1})", k_near,
                                      light.quadratic == 1 ? "" : fmt::format(" * {}", light.quadratic)),
@@ -44,7 +44,7 @@ Fading fading_of(const PunctualLight& light, const std::string& model, FileSink&
 std::string cone_of(const PunctualLight& light, const std::string& model, FileSink& files) {
     if (!light.has_cone) return "";
     if (!light.is_smooth)
-        files.approximate(fmt::format("light/{} falls off between its cones as a smoothstep of the cosine, "
+        files.approximate(fmt::format("{} falls off between its cones as a smoothstep of the cosine, "
                                       "not linearly",
                                       model)
                               .c_str());
@@ -62,8 +62,7 @@ std::string light_text(const ExportedScene& scene, const PunctualLight& light, c
                        FileSink& files) {
     const Rgb color = light.diffuse;
     if (!(light.diffuse == light.specular))
-        files.approximate(
-            fmt::format("light/{} has highlights of its diffuse light's colour", model).c_str());
+        files.approximate(fmt::format("{} has highlights of its diffuse light's colour", model).c_str());
     const std::string rgb = rgb_text({color.r, color.g, color.b});
     if (light.w == 0) {
         // The light is outside the room; its rays are parallel to the one towards the origin.
@@ -89,17 +88,17 @@ std::string lights_text(const ExportedScene& scene, FileSink& files) {
     std::string text;
     bool needs_near = false;
     for (const ExportedLight& light : scene.lights) {
-        const std::string model = scene.light_models[light.model].plugin->name;
+        const ExportedModel& model = scene.light_models[light.model];
         if (!light.is_data) {
             files.approximate(
-                fmt::format("light/{} has no counterpart in POV-Ray and is left out", model).c_str());
+                fmt::format("{} has no counterpart in POV-Ray and is left out", model.id).c_str());
             continue;
         }
         if (light.punctual.empty()) continue;
         text += fmt::format("\n// {}: {}\n", target::ascii_identifier(light.label),
-                            target::ascii_identifier(model));
+                            target::ascii_identifier(model.plugin->name));
         for (const PunctualLight& sample : light.punctual) {
-            text += light_text(scene, sample, model, files);
+            text += light_text(scene, sample, model.id, files);
             needs_near = needs_near || (sample.w != 0 && sample.quadratic > 0);
         }
     }

@@ -43,16 +43,12 @@ std::string highlight_text(const Finish& finish, float brightness) {
     }
 }
 
-std::string named(const ExportedReflection& model) {
-    return fmt::format("reflection/{}", model.plugin->name);
-}
-
 /// A model that POV-Ray does not have: its diffuse part as Lambert's, its highlight as Blinn's.
 void approximate(const ExportedReflection& model, const ExportedValues& values, Finish& finish,
                  FileSink& files) {
     const auto highlight = target::highlight_of(model, values);
     if (!highlight) {
-        files.approximate(fmt::format("{} becomes Lambert's diffuse light", named(model)).c_str());
+        files.approximate(fmt::format("{} becomes Lambert's diffuse light", model.id).c_str());
         return;
     }
     const float a2 = highlight->alpha * highlight->alpha;
@@ -63,25 +59,25 @@ void approximate(const ExportedReflection& model, const ExportedValues& values, 
     finish.exponent = 2 / a2 - 2;
     files.approximate(
         fmt::format("{} becomes Lambert's diffuse light and Blinn's highlight of about the same width",
-                    named(model))
+                    model.id)
             .c_str());
 }
 
 Finish finish_of(const ExportedReflection& model, const ExportedValues& values, FileSink& files) {
-    const std::string_view name = model.plugin->name;
+    const std::string_view id = model.id;
     const auto rgb = [&](const char* parameter, float otherwise) {
         return target::rgb_value(model, values, parameter).value_or(Vec3{otherwise, otherwise, otherwise});
     };
     Finish finish{.ambient = rgb("ka", 0), .diffuse = rgb("kd", 1)};
-    if (name == "lambert") return finish;
+    if (id == "reflection/lambert") return finish;
     const auto exponent = target::real_value(model, values, "shininess");
-    if (!exponent || (name != "phong" && name != "blinn-phong")) {
+    if (!exponent || (id != "reflection/phong" && id != "reflection/blinn-phong")) {
         approximate(model, values, finish, files);
         return finish;
     }
     finish.specular = rgb("ks", 0);
     if (finish.specular == Vec3{}) return finish;
-    finish.kind = name == "phong" ? HighlightKind::phong : HighlightKind::blinn;
+    finish.kind = id == "reflection/phong" ? HighlightKind::phong : HighlightKind::blinn;
     finish.exponent = *exponent;
     if (finish.kind == HighlightKind::phong && finish.exponent == 0)
         files.approximate("reflection/phong with a shininess of 0 has no highlight where R.V is negative");

@@ -34,9 +34,9 @@ constexpr GlslDepth k_logarithmic_depth{
 
 /// The models whose normal is interpolated between the vertices, as three.js does it.
 bool is_smooth(const ExportedShading& shading) {
-    constexpr std::array<std::string_view, 4> k_names{"phong", "angle-weighted", "area-weighted",
-                                                      "max-weighted"};
-    return std::ranges::find(k_names, shading.plugin->name) != k_names.end();
+    constexpr std::array<std::string_view, 4> k_ids{"shading/phong", "shading/angle-weighted",
+                                                    "shading/area-weighted", "shading/max-weighted"};
+    return std::ranges::find(k_ids, shading.id) != k_ids.end();
 }
 
 Vec3 intensities(Vec3 color, ColorEncoding encoding) {
@@ -52,7 +52,7 @@ class Writer {
         for (const ExportedModel& model : models_of(scene_)) {
             if (model.plugin->kernel.text == nullptr)
                 throw std::runtime_error(
-                    fmt::format("{} has no kernel, and three.js has no equivalent model", id_of(model)));
+                    fmt::format("{} has no kernel, and three.js has no equivalent model", model.id));
         }
         std::vector<Json> meshes;
         std::vector<Box> boxes;
@@ -113,7 +113,7 @@ class Writer {
         const ExportedReflection& model = scene_.reflections[object.reflection];
         const ExportedValues& values = object.materials[object.reflection];
         const auto ka = rgb_value(model, values, "ka"), kd = rgb_value(model, values, "kd");
-        if (std::string_view(model.plugin->name) != "lambert" || !ka || !kd ||
+        if (std::string_view(model.id) != "reflection/lambert" || !ka || !kd ||
             !is_smooth(scene_.shadings[object.shading]) ||
             object.color_texture != ExportedObject::k_no_texture)
             return {};

@@ -120,7 +120,8 @@ Json model_json(const ExportedModel& model, const std::string& glsl) {
     }
     Json presets = Json::array();
     for (const PresetSpec& preset : plugin.presets) presets.push_back(preset_json(plugin, preset));
-    return {{"title", plugin.title},
+    return {{"id", model.id},
+            {"title", plugin.title},
             {"summary", plugin.summary},
             {"formula", plugin.formula},
             {"reference", plugin.reference},

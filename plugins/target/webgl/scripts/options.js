@@ -8,6 +8,12 @@ function changesIn(settings, pane) {
     return new Map([...all.filter(([path]) => !path.startsWith("pane.")), ...own]);
 }
 
+/** The name of a model in commands. */
+const nameOf = (scene, kind, model) => {
+    const { id } = scene[`${kind}_models`][model];
+    return id === `${kind}/${model}` ? model : id;  // a kernel file is called by its path
+};
+
 /**
  * The page's changes as options of `candela render`: pairs of an option's name ("set", "shading", "reflection") and its value.
  * The display over and next to the picture is not part of the scene. Values of models that are not in use have no effect and
@@ -19,7 +25,7 @@ export function optionsOf(allSettings, pane = 0) {
         const [kind, index, group, ...rest] = path.split(".");
         if (["show", "panes"].includes(kind)) continue;
         if (kind === "shading" || kind === "reflection") {
-            if (value !== "") options.push([kind, value]);
+            if (value !== "") options.push([kind, nameOf(scene, kind, value)]);
         } else if (kind === "light" && group === "on") {
             if (!value) options.push(["set", `light.${index}.intensity=0`]);
         } else if (kind === "light") {
@@ -38,7 +44,8 @@ export function optionsOf(allSettings, pane = 0) {
 /** The options as the query of an address. */
 export const queryOf = (settings, pane) => optionsOf(settings, pane).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
 
-const quoted = (text) => (/^[\w.,=:+/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+/** A word of a shell. */
+export const quoted = (text) => (/^[\w.,=:+/-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 /** The options as words of a shell. */
 export const commandLineOf = (settings) => optionsOf(settings).map(([name, value]) => `--${name} ${quoted(value)}`).join(" ");

@@ -4,6 +4,7 @@ import { problemsOf } from "../../../../../sdk/web/editor/problems.js";
 import { element } from "../../../../../sdk/web/elements.js";
 import { idsOf, isUsed, modelOfId } from "./formulas.js";
 import { announce } from "../messages.js";
+import { quoted } from "../options.js";
 import { layOver, onMoved } from "../overlay.js";
 import { compare } from "../reference.js";
 
@@ -63,6 +64,11 @@ export class FormulaEditor {
 
     shipped() {
         return modelOfId(this.page.settings.scene, this.id).kernel;
+    }
+
+    /** The model's name in commands. */
+    name() {
+        return modelOfId(this.page.settings.scene, this.id).id;
     }
 
     open(id) {
@@ -159,7 +165,7 @@ export class FormulaEditor {
     /** `candela view` creates the project in the folder in which it was started. */
     async keepHere(name) {
         try {
-            const response = await fetch(`keep?model=${encodeURIComponent(this.id)}&name=${encodeURIComponent(name)}`, { method: "POST", body: this.editor.text });
+            const response = await fetch(`keep?model=${encodeURIComponent(this.name())}&name=${encodeURIComponent(name)}`, { method: "POST", body: this.editor.text });
             return (await response.text()).trim();
         } catch (error) {
             return `The formula was not kept. ${error.message}`;
@@ -170,6 +176,6 @@ export class FormulaEditor {
         const href = URL.createObjectURL(new Blob([this.editor.text], { type: "text/plain" }));
         element("a", { href, download: `${name}.kernel` }).click();
         setTimeout(() => URL.revokeObjectURL(href));
-        return `${name}.kernel was downloaded. In its folder, run: candela plugin new reflection ${name} --from ${this.id} --kernel ${name}.kernel`;
+        return `${name}.kernel was downloaded. In its folder, run: candela plugin new reflection ${name} --from ${quoted(this.name())} --kernel ${name}.kernel`;
     }
 }

@@ -32,8 +32,6 @@ std::string call(const ExportedModel& model, std::string_view name, std::string_
 /// The struct of a model's parameters with these values: "PhongMaterial{vec3(0.1f), ...}", prepared.
 std::string struct_text(const ExportedModel& model, const ExportedValues& values);
 
-/// "reflection/phong".
-std::string id_of(const ExportedModel& model);
 /// The light, reflection and shading models of a scene, each once.
 std::vector<ExportedModel> models_of(const ExportedScene& scene);
 
