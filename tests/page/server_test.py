@@ -431,6 +431,18 @@ class ServerTest(unittest.TestCase):
         self.assertIn(b" 200 ", view.get(f"/{view.token}/save?reflection=own.kernel", method="POST", **own).split(b"\r\n")[0])
         self.assertEqual(view.file.read_text(), scene)
 
+    def test_a_model_chosen_in_the_page_replaces_that_of_the_command(self):
+        for option in (["--reflection", "phong", "--shading=flat"], ["--reflection=phong", "--shading", "flat"]):
+            view = self.started(option[0].strip("-"), options=option)
+            view.wait_for_color(100)
+            shown = view.get(f"/{view.token}/reference.png?reflection=half-lambert&shading=gouraud").split(b"\r\n\r\n", 1)[1]
+            expected = view.folder / "expected.png"
+            subprocess.run([COMMAND, "render", "--quiet", view.file, "-o", expected, "--reflection", "half-lambert", "--shading", "gouraud"],
+                           env=ENVIRONMENT, check=True)
+            self.assertEqual(shown, expected.read_bytes())
+            explained = json.loads(view.get(f"/{view.token}/explanation.json?pixel=32%2C24&reflection=half-lambert").split(b"\r\n\r\n", 1)[1])
+            self.assertIn("half-lambert", json.dumps(explained))
+
     def test_programs_that_it_starts_have_none_of_its_sockets(self):
         # Open while the processes start.
         idle = [self.view.connect() for _ in range(20)]

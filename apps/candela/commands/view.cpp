@@ -20,6 +20,7 @@
 #include "process/process.h"
 #include "sandbox/temporary_folder.h"
 #include "verify/targets.h"
+#include "viewer/arguments.h"
 #include "viewer/explainer.h"
 #include "viewer/scene_follower.h"
 #include "viewer/server.h"
@@ -39,24 +40,6 @@ std::uint16_t port_from(const CommandLine& line) {
     if (port < 0 || port > 65535)
         throw Error(ErrorCategory::bad_request, fmt::format("--port is {}; expected 0 to 65535", port));
     return static_cast<std::uint16_t>(port);
-}
-
-/// The arguments for another verb: `arguments` without these switches and these options, which have values.
-std::vector<std::string> without(const std::vector<std::string>& switches,
-                                 const std::vector<std::string>& options,
-                                 const std::vector<std::string>& arguments) {
-    std::vector<std::string> rest;
-    for (std::size_t i = 0; i < arguments.size(); ++i) {
-        const std::string& word = arguments[i];
-        const auto is_of = [&](const std::string& option) { return word.starts_with(option + "="); };
-        if (std::ranges::find(options, word) != options.end()) {
-            ++i;
-        } else if (std::ranges::find(switches, word) == switches.end() &&
-                   std::ranges::none_of(options, is_of)) {
-            rest.push_back(word);
-        }
-    }
-    return rest;
 }
 
 /// Detaches the browser, which must not end together with this process.
@@ -91,11 +74,12 @@ int run_view(const std::vector<std::string>& arguments) {
     candela::Registry registry = registry_from(line);
     const LoadedTarget target =
         line.has("target") ? LoadedTarget(line.get<std::string>("target"), registry) : page_target(registry);
-    std::vector<std::string> for_generate = without({"--no-open"}, {"--port", "--target"}, arguments);
+    std::vector<std::string> for_generate = view::without({"--no-open"}, {"--port", "--target"}, arguments);
     if (!line.has("models")) for_generate.insert(for_generate.end(), {"--models", "all"});
     const TemporaryFolder images("candela-view-");
     const TemporaryFolder kernels("candela-view-");  // compiled by explain
-    const auto for_render = without({"--no-open", "--quiet"}, {"--port", "--target", "--models"}, arguments);
+    const auto for_render =
+        view::without({"--no-open", "--quiet"}, {"--port", "--target", "--models"}, arguments);
     auto for_explain = for_render;
     for_explain.push_back(fmt::format("--keep={}", kernels.path().string()));
     std::vector<std::string> for_keep;

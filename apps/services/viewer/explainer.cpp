@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "json/json.h"
+#include "viewer/arguments.h"
 
 namespace {
 
@@ -46,7 +47,8 @@ void Explainer::start(const std::vector<std::string>& options) {
     program_.reset();
     options_ = options;
     std::vector<std::string> words{"/proc/self/exe", "explain", "--quiet", "--json", "--pixel=-"};
-    for (const auto& some : {arguments_, options}) words.insert(words.end(), some.begin(), some.end());
+    const std::vector<std::string> more = view::with_options(arguments_, options);
+    words.insert(words.end(), more.begin(), more.end());
     program_ = std::make_unique<candela::AnsweringProgram>(words);
 }
 

@@ -24,6 +24,7 @@
 #include "json/json.h"
 #include "plugin_project/plugin_project.h"
 #include "sandbox/process_tree.h"
+#include "viewer/arguments.h"
 
 import candela.plugins;
 import candela.util;
@@ -46,20 +47,14 @@ std::vector<fs::path> names_listed_in(const fs::path& list) {
     return names;
 }
 
-std::vector<std::string> options_of(const std::vector<view::Change>& changes) {
-    std::vector<std::string> options;
-    for (const view::Change& change : changes)
-        options.push_back(fmt::format("{}={}", change.option, change.value));
-    return options;
-}
-
 /// Runs a verb of this program in a process of its own.
 candela::ProgramOutput run_verb(const std::vector<std::string>& verb,
                                 const std::vector<std::string>& arguments,
                                 const std::vector<std::string>& options,
                                 const candela::Patience& patience = {}) {
     std::vector<std::string> words{"/proc/self/exe"};
-    for (const auto& some : {verb, arguments, options}) words.insert(words.end(), some.begin(), some.end());
+    for (const auto& some : {verb, view::with_options(arguments, options)})
+        words.insert(words.end(), some.begin(), some.end());
     return candela::run_program(words, patience);
 }
 
@@ -104,7 +99,7 @@ WithoutDescendants::~WithoutDescendants() {
 view::Outcome rendered(const std::vector<std::string>& arguments, const std::vector<view::Change>& changes,
                        const fs::path& file, std::stop_token unwanted) try {
     const candela::ProgramOutput result =
-        run_verb({"render", "--quiet", "--output", file.string()}, arguments, options_of(changes),
+        run_verb({"render", "--quiet", "--output", file.string()}, arguments, view::options_of(changes),
                  {.longest = k_longest_rendering, .unwanted = std::move(unwanted)});
     if (result.end == candela::ProgramEnd::late) {
         return {.is_success = false,
