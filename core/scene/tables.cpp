@@ -15,6 +15,7 @@ module candela.scene;
 
 import :fields;
 import :tables;
+import :text;
 import :vocabulary;
 import candela.api;
 import candela.plugins;
@@ -80,12 +81,19 @@ TableValues SceneTables::read_plain(const std::string& name, const SharedSchema&
 
 const PluginFile* SceneTables::known(PluginKind kind, const std::string& name, const SourceLocation& place) {
     if (const PluginFile* const plugin = registry_.find(kind, name)) return plugin;
+    const bool is_kernel = is_kernel_file(name);
+    if (is_kernel && !reported_kernels_.insert(name).second) return nullptr;
+    const std::string shown = shown_model_name(name);
+    if (is_kernel && !existing_file(shown, shown, place, diagnostics_)) return nullptr;
     try {
         registry_.require(kind, name);
     } catch (const KernelError& problem) {
-        if (reported_kernels_.insert(name).second) problem.report_in(diagnostics_);
+        problem.report_in(diagnostics_);
     } catch (const Error& problem) {
-        diagnostics_.error(place, problem.what(), "", problem.help());
+        if (is_kernel && problem.category() == ErrorCategory::failure)
+            diagnostics_.failure(place, problem.what(), "", problem.help());
+        else
+            diagnostics_.error(place, problem.what(), "", problem.help());
     }
     return nullptr;
 }

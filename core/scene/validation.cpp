@@ -233,24 +233,6 @@ bool is_written_as_list(const Node& node, const Diagnostics& diagnostics) {
     return text.starts_with('[') && second != std::string::npos && text[second] >= '0' && text[second] <= '9';
 }
 
-/// Checks that a file exists; returns its absolute path.
-std::optional<std::string> existing_file(const std::string& written, const SourceLocation& place,
-                                         Diagnostics& diagnostics) {
-    const fs::path path = path_at(place, written);
-    std::error_code problem;
-    const fs::path file = fs::absolute(path, problem).lexically_normal();
-    const fs::file_status status = fs::status(file, problem);
-    if (status.type() == fs::file_type::regular) return file.string();
-    const char* const what = status.type() == fs::file_type::directory   ? "is a directory, not a file"
-                             : status.type() == fs::file_type::not_found ? "does not exist"
-                                                                         : "is not a regular file";
-    diagnostics.error(place, fmt::format("'{}' {}", written, what),
-                      status.type() == fs::file_type::not_found
-                          ? joined(file_suggestion(path), fmt::format("(looked for {})", file.string()))
-                          : "");
-    return std::nullopt;
-}
-
 /// `node` as a value of the parameter's type, without checking its range. Reports a type mismatch.
 std::optional<Value> typed_value(const Node& node, const Parameter& parameter, Diagnostics& diagnostics) {
     auto value = as_value(node, parameter);
@@ -315,7 +297,7 @@ std::optional<Value> valid_value(const Node& node, const Parameter& p, Diagnosti
             diagnostics.error(node.place, fmt::format("'{}' is empty; expected a quoted path", p.name));
             return std::nullopt;
         }
-        const auto file = existing_file(written, node.place, diagnostics);
+        const auto file = existing_file(path_at(node.place, written), written, node.place, diagnostics);
         if (!file) return std::nullopt;
         value = *file;
     }

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -115,9 +117,10 @@ void build(const CheckedModel& checked, const fs::path& compiler, const fs::path
                                                      .output = output,
                                                      .temporary = folder});
     if (!report.is_success) {
+        const std::string log = without(folder, first_error(report.log));
         throw Error(ErrorCategory::failure,
-                    fmt::format("{} could not compile the kernel: {}", compiler.filename().string(),
-                                without(folder, first_error(report.log))));
+                    fmt::format("{} could not compile the kernel: {}", compiler.string(),
+                                log.empty() ? "it gave no reason" : log));
     }
     write_text_file(folder / (library + ".json"),
                     to_json(manifest_of(load_plugin(output, nullptr), host_abi())));
@@ -176,9 +179,16 @@ CompiledKernel compile_kernel_file(const fs::path& file) {
     } catch (const std::invalid_argument& problem) {
         throw Error(ErrorCategory::bad_request, problem.what());
     }
+    std::error_code problem;
+    const fs::file_status status = fs::status(file, problem);
+    const auto fail = [&](const std::string& why) {
+        throw Error(ErrorCategory::failure, fmt::format("'{}' {}", file.string(), why));
+    };
+    if (status.type() == fs::file_type::not_found) fail("does not exist");
+    if (status.type() == fs::file_type::directory) fail("is a directory, not a file");
+    if (fs::exists(status) && !fs::is_regular_file(status)) fail("is not a regular file");
     const auto text = read_text_file(file, k_longest_text + 1);
-    if (!text)
-        throw Error(ErrorCategory::failure, fmt::format("the kernel '{}' cannot be read", file.string()));
+    if (!text) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
     return compile_model({file.string(), *text}, name, kernel_cache());
 }
 

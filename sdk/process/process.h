@@ -31,8 +31,9 @@ struct Patience {
 /// The path of an executable of that name on PATH.
 std::optional<std::filesystem::path> program_called(const std::string& name);
 
-/// The C++ compiler of this machine: the one that the environment variable CXX names, otherwise the newest
-/// clang++, otherwise the newest g++. Nothing if there is none.
+/// The C++ compiler of this machine: the one that the environment variable CXX names, otherwise (also if CXX
+/// is a command of several words) the newest clang++, otherwise the newest g++. Nothing if there is none.
+/// Throws Error (failure) if CXX names a program that is not installed.
 std::optional<std::filesystem::path> cxx_compiler();
 
 /// Runs a program without input and waits for it. A name without '/' is looked up on PATH. Throws Error

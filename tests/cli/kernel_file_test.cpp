@@ -1,4 +1,6 @@
 // Kernel files in the place of models' names: in scenes, on the command line, and in every command.
+#include <sys/stat.h>
+
 #include <catch2/catch_test_macros.hpp>
 #include <chrono>
 #include <filesystem>
@@ -170,8 +172,7 @@ TEST_CASE("a kernel file that cannot be used says why", "[kernel_files]") {
         CHECK(result.exit_code != 0);
         return result.err;
     };
-    CHECK(holds(error_of({"render", "--reflection", "none.kernel"}),
-                "the kernel 'none.kernel' cannot be read"));
+    CHECK(holds(error_of({"render", "--reflection", "none.kernel"}), "'none.kernel' does not exist"));
     CHECK(holds(error_of({"render", "--reflection", "lamp.kernel"}),
                 "'lamp.kernel' is a light model; expected a reflection model"));
     write_file(place.directory / "Big.kernel", k_half);
@@ -232,6 +233,47 @@ TEST_CASE("a scene with a kernel file's material can be switched to another mode
     expect(place.candela({"check", "scene.toml", "--reflection", "phong"}), 0,
            {"scene.toml:", "warning: 'half.kernel' cannot be used, so it is unknown which material keys"});
     expect(place.candela({"check", "scene.toml"}), 3, {"half.kernel:1:"});
+}
+
+TEST_CASE("a kernel that cannot be read is an error of the scene that names it, or a failure",
+          "[kernel_files]") {
+    const Workspace place;
+    fs::create_directories(place.directory / "folder.kernel");
+    REQUIRE(::mkfifo((place.directory / "pipe.kernel").c_str(), 0600) == 0);
+    for (const auto& [file, reason] :
+         {std::pair{"haft.kernel", "'haft.kernel' does not exist"},
+          std::pair{"folder.kernel", "'folder.kernel' is a directory, not a file"},
+          std::pair{"pipe.kernel", "'pipe.kernel' is not a regular file"}}) {
+        write_file(place.directory / "scene.toml",
+                   Workspace::scene(std::string("reflection = \"") + file + "\"", "point"));
+        const CommandResult checked = place.candela({"check", "scene.toml"});
+        expect(checked, 3, {"scene.toml:15:14: error: ", reason});
+        for (const Words& words :
+             {Words{"describe", file}, Words{"plot", file}, Words{"plugin", "test", file}})
+            expect(place.candela(words), 1, {reason});
+    }
+    write_file(place.directory / "scene.toml", Workspace::scene("reflection = \"haft.kernel\"", "point"));
+    expect(place.candela({"check", "scene.toml"}), 3,
+           {"did you mean 'half.kernel'?  (looked for " + (place.directory / "haft.kernel").string() + ")"});
+}
+
+TEST_CASE("without a compiler that works, a kernel is a failure, not an error of the scene",
+          "[kernel_files]") {
+    const Workspace place;
+    write_file(place.directory / "half.kernel", std::string("// for a compiler that fails\n") + k_half);
+    const auto checked_with = [&](const std::string& compiler) {
+        CommandSetup setup{.input = "",
+                           .environment = {{"XDG_CACHE_HOME", (place.directory / "cache").string()}},
+                           .directory = place.directory};
+        setup.environment.emplace_back(compiler.empty() ? "PATH" : "CXX",
+                                       compiler.empty() ? (place.directory / "empty").string() : compiler);
+        return run_candela({"check", "scene.toml"}, setup);
+    };
+    fs::create_directories(place.directory / "empty");
+    expect(checked_with(""), 1,
+           {"a kernel needs a C++ compiler, and none is installed (packages g++ or clang)"});
+    expect(checked_with("/bin/false"), 1, {"/bin/false could not compile the kernel: it gave no reason"});
+    expect(checked_with("nosuch"), 1, {"CXX names the C++ compiler 'nosuch', which is not installed"});
 }
 
 TEST_CASE("messages call a kernel file by its path", "[kernel_files]") {

@@ -1,4 +1,5 @@
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers.hpp>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -51,13 +52,16 @@ TEST_CASE(
     CHECK(found() == "clang++-20");
 }
 
-TEST_CASE("CXX names the C++ compiler, unless there is none of that name") {
+TEST_CASE("CXX names the C++ compiler, which must be installed, unless it is a command of several words") {
     const Programs programs;
     programs.add("clang++-20");
     programs.add("g++-9");
     ::setenv("CXX", "g++-9", 1);
     CHECK(found() == "g++-9");
     ::setenv("CXX", "icpx", 1);
+    CHECK_THROWS_WITH(found(),
+                      "the environment variable CXX names the C++ compiler 'icpx', which is not installed");
+    ::setenv("CXX", "ccache g++-9", 1);
     CHECK(found() == "clang++-20");
     ::setenv("CXX", "", 1);
     CHECK(found() == "clang++-20");

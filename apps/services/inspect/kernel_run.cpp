@@ -69,7 +69,13 @@ void KernelRunner::prepare() {
 }
 
 bool KernelRunner::compile(const fs::path& folder) {
-    const auto program = candela::cxx_compiler();
+    std::optional<fs::path> program;
+    try {
+        program = candela::cxx_compiler();
+    } catch (const candela::Error& problem) {
+        why_not_ = fmt::format("the kernels' steps are left out: {}", problem.what());
+        return false;
+    }
     if (!program) {
         why_not_ = "the kernels' steps are left out: no C++ compiler is installed";
         return false;

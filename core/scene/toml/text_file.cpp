@@ -16,6 +16,7 @@ module;
 #include <optional>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 module candela.scene;
@@ -127,6 +128,24 @@ std::optional<std::string> text_of_bytes(std::string text, const std::string& sh
 std::filesystem::path path_at(const SourceLocation& place, const std::string& written) {
     return (place.line > 0 ? std::filesystem::path(place.file).parent_path() : "") /
            std::filesystem::path(written);
+}
+
+std::optional<std::string> existing_file(const fs::path& file, const std::string& name,
+                                         const SourceLocation& place, Diagnostics& diagnostics) {
+    std::error_code problem;
+    const fs::path absolute = fs::absolute(file, problem).lexically_normal();
+    const fs::file_status status = fs::status(absolute, problem);
+    if (status.type() == fs::file_type::regular) return absolute.string();
+    const char* const what = status.type() == fs::file_type::directory   ? "is a directory, not a file"
+                             : status.type() == fs::file_type::not_found ? "does not exist"
+                                                                         : "is not a regular file";
+    std::string hint;
+    if (status.type() == fs::file_type::not_found) {
+        const std::string meant = file_suggestion(file);
+        hint = fmt::format("{}{}(looked for {})", meant, meant.empty() ? "" : "  ", absolute.string());
+    }
+    diagnostics.error(place, fmt::format("'{}' {}", name, what), hint);
+    return std::nullopt;
 }
 
 }  // namespace candela

@@ -27,6 +27,11 @@ std::optional<std::string> text_of_bytes(std::string bytes, const std::string& s
 /// working directory.
 std::filesystem::path path_at(const SourceLocation& place, const std::string& written);
 
+/// Checks that `file`, which is called `name` at `place`, is a regular file; otherwise reports why not.
+/// Returns its absolute path.
+std::optional<std::string> existing_file(const std::filesystem::path& file, const std::string& name,
+                                         const SourceLocation& place, Diagnostics& diagnostics);
+
 /// The position of a byte of a text.
 SourceLocation place_at(std::string_view text, std::size_t offset, const std::string& shown_name);
 
