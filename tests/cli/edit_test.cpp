@@ -152,3 +152,26 @@ TEST_CASE("any number of objects and changes is edited in one go") {
                 "9, 9]\n"));
     CHECK(holds(text, "color = [49, 9, 9]\n"));
 }
+
+TEST_CASE("candela edit writes the path of a file relative to the scene's file, wherever it is run") {
+    const Folder folder;
+    folder.write("wood.ppm", "P6\n1 1\n255\nabc");
+    folder.write("matt.kernel",
+                 "KERNEL Reflected matt_reflect(Surface s, vec3 to_light) {\n    return Reflected(s.color * "
+                 "max(dot(s.normal, to_light), 0.0f), vec3(0.0f));\n}\n");
+    const fs::path file = folder.write("below/scene.toml", k_scene);
+    const Folder::Environment cache{{"XDG_CACHE_HOME", (folder / "cache").string()}};
+    expect(folder.run("edit below/scene.toml --change reflection.model=matt.kernel --change "
+                      "object.0.color_texture=wood.ppm",
+                      {}, cache),
+           0);
+    const std::string text = read_file(file);
+    CHECK(holds(text, "model = \"../matt.kernel\"\n"));
+    CHECK(holds(text, "color_texture = \"../wood.ppm\"\n"));
+    // A name that stands for a file in both folders means the same one as before.
+    fs::copy_file(folder / "matt.kernel", folder / "below/matt.kernel");
+    expect(folder.run("edit below/scene.toml --change reflection.model=matt.kernel", {}, cache), 0);
+    CHECK(read_file(file) == text);
+    expect(folder.run("edit below/scene.toml --change reflection.model=below/matt.kernel", {}, cache), 0);
+    CHECK(holds(read_file(file), "model = \"matt.kernel\"\n"));
+}

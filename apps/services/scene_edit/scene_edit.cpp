@@ -10,6 +10,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -26,11 +27,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// How the paths of files among the new values are written: as given, which means relative to the working
+/// directory, or relative to the file that they are written to, which is how they are read from it.
+enum class Paths : bool { as_given, relative_to_file };
+
 /// Turns changes of a merged document into edits of the files that it was merged from.
 class Editor {
   public:
-    Editor(const MergedDocument& document, Diagnostics& diagnostics)
-        : document_(document), diagnostics_(diagnostics), index_(document.root) {}
+    Editor(const MergedDocument& document, Paths paths, Diagnostics& diagnostics)
+        : document_(document), paths_(paths), diagnostics_(diagnostics), index_(document.root) {}
 
     /// The scene with this change must be valid: its path leads somewhere.
     void change(const Setting& setting) {
@@ -47,7 +52,7 @@ class Editor {
         }
         for (; next + 1 < parts.size() && place.table != nullptr; ++next) step(place, parts[next]);
         for (; next + 1 < parts.size(); ++next) place.key += toml_key(parts[next]) + ".";
-        write(place, parts.back(), toml_text(*value));
+        write(place, parts.back(), *value);
     }
 
     std::vector<TextChange> texts() {
@@ -104,25 +109,38 @@ class Editor {
         }
     }
 
-    void write(const InsertionPoint& place, const std::string& key, const std::string& value) {
+    std::string text_in(const std::string& file, Node value) const {
+        auto* const text = std::get_if<std::string>(&value.value);
+        std::error_code problem;
+        if (paths_ == Paths::relative_to_file && text != nullptr && fs::is_regular_file(*text, problem)) {
+            const fs::path named = fs::absolute(*text);
+            const fs::path relative = named.lexically_proximate(fs::absolute(file).parent_path());
+            *text = relative.string();
+        }
+        return toml_text(value);
+    }
+
+    void write(const InsertionPoint& place, const std::string& key, const Node& value) {
         const TableNode::Entry* const entry = place.table != nullptr ? place.table->find(key) : nullptr;
         if (entry != nullptr) {
             const std::string& file = entry->node.place.file;
-            edits_[file].push_back(replacement(text_of(file), entry->node, value));
+            edits_[file].push_back(replacement(text_of(file), entry->node, text_in(file, value)));
             return;
         }
         const std::string path = place.key + toml_key(key);
         if (place.holder == nullptr && place.table == nullptr) {
             const std::size_t dot = path.find('.');
-            new_tables_[path.substr(0, dot)].emplace_back(path.substr(dot + 1), value);
+            new_tables_[path.substr(0, dot)].emplace_back(path.substr(dot + 1),
+                                                          text_in(document_.place.file, value));
             return;
         }
         const std::string& file =
             place.holder != nullptr ? place.holder->place.file : place.table->entries.front().node.place.file;
-        additions_[{file, place.holder}].emplace_back(path, value);
+        additions_[{file, place.holder}].emplace_back(path, text_in(file, value));
     }
 
     const MergedDocument& document_;
+    Paths paths_;
     Diagnostics& diagnostics_;
     ElementIndex index_;
     std::map<std::string, SourceText> texts_;             // of files, by the names that diagnostics show
@@ -171,21 +189,20 @@ std::vector<TextChange> edited_files(const SceneRequest& request, const std::vec
     Diagnostics known;
     const auto document = merge_documents(plain, known);
     if (!document) throw Error(ErrorCategory::failure, "a file of the scene is being changed");
-    Editor editor(*document, diagnostics);
-    for (const Setting& change : last_ones(changes, *document)) editor.change(change);
-    std::vector<TextChange> texts = editor.texts();
-
-    SceneRequest saved = request;
-    saved.ask = nullptr;
-    for (const TextChange& text : texts) saved.unsaved[text.file] = text.after;
-    Diagnostics found;
-    if (text_of_scene(saved, registry, found) != goal) {
-        throw Error(
-            ErrorCategory::bad_request,
-            "these changes would have a different effect in the scene's files than as overrides, because "
-            "something takes precedence over them, such as an object's own model or an option");
+    // Only the reader of a scene knows which values are paths.
+    for (const Paths paths : {Paths::as_given, Paths::relative_to_file}) {
+        Editor editor(*document, paths, diagnostics);
+        for (const Setting& change : last_ones(changes, *document)) editor.change(change);
+        std::vector<TextChange> texts = editor.texts();
+        SceneRequest saved = request;
+        saved.ask = nullptr;
+        for (const TextChange& text : texts) saved.unsaved[text.file] = text.after;
+        Diagnostics found;
+        if (text_of_scene(saved, registry, found) == goal) return texts;
     }
-    return texts;
+    throw Error(ErrorCategory::bad_request,
+                "these changes would have a different effect in the scene's files than as overrides, because "
+                "something takes precedence over them, such as an object's own model or an option");
 }
 
 void replace_texts(std::span<const TextChange> changes) {
