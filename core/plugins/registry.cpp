@@ -90,6 +90,13 @@ std::string plugin_id(PluginKind kind, std::string_view name) {
     return is_kernel_file(name) ? shown : fmt::format("{}/{}", name_of(kind), shown);
 }
 
+std::string kernel_file_hint(std::string_view name) {
+    const std::size_t slash = name.find('/');
+    const bool is_id = slash != std::string_view::npos && plugin_kind_named(name.substr(0, slash));
+    const bool is_path = !is_id && name.find_first_of("./") != std::string_view::npos;
+    return is_path ? "; the name of a kernel file ends with .kernel" : "";
+}
+
 KernelError::KernelError(SourceLocation place, const std::string& message, std::string source)
     : Error(ErrorCategory::invalid_scene,
             fmt::format("{}:{}:{}: {}", place.file, place.line, place.column, message)),
@@ -207,8 +214,8 @@ const PluginFile& Registry::require(PluginKind kind, std::string_view name) {
     const std::vector<std::string> known = names(kind);
     const std::string meant = suggestion(name, known);
     throw Error(ErrorCategory::failure,
-                fmt::format("no {} plugin is called '{}'{}{} (installed: {})", candela::name_of(kind), name,
-                            meant.empty() ? "" : "; ", meant,
+                fmt::format("no {} plugin is called '{}'{}{}{} (installed: {})", candela::name_of(kind), name,
+                            has_kernels(kind) ? kernel_file_hint(name) : "", meant.empty() ? "" : "; ", meant,
                             known.empty() ? "none" : fmt::format("{}", fmt::join(known, ", "))),
                 {meant.empty() ? Help::Topic::all_plugins : Help::Topic::none});
 }

@@ -87,6 +87,10 @@ CANDELA_EXPORT std::string shown_model_name(std::string_view name);
 /// a kernel file.
 CANDELA_EXPORT std::string plugin_id(PluginKind kind, std::string_view name);
 
+/// For messages on unknown names: "; the name of a kernel file ends with .kernel" if this looks like that of
+/// a file, otherwise empty.
+CANDELA_EXPORT std::string kernel_file_hint(std::string_view name);
+
 /// `first`, then CANDELA_PLUGIN_PATH, the user's data directory, and lib/candela/plugins next to the core.
 CANDELA_EXPORT std::vector<std::filesystem::path> plugin_search_path(
     std::span<const std::filesystem::path> first);

@@ -206,7 +206,7 @@ class Exporter {
         for (const Exported& other : others) {
             if (other.plugin == &plugin || std::string_view(other.plugin->name) != plugin.name) continue;
             throw Error(
-                ErrorCategory::bad_request,
+                ErrorCategory::failure,
                 fmt::format("the {} models '{}' and '{}' have kernel functions of the same names, which a "
                             "program cannot contain; rename one of them",
                             name_of(kind), other.id, plugin_id(kind, name)));
@@ -259,8 +259,8 @@ class Exporter {
         if (is_known) return;
         const std::string meant = suggestion(name, names);
         throw Error(ErrorCategory::bad_request,
-                    fmt::format("no reflection or shading model is called '{}'{}", name,
-                                meant.empty() ? "" : "; " + meant),
+                    fmt::format("no reflection or shading model is called '{}'{}{}", name,
+                                kernel_file_hint(name), meant.empty() ? "" : "; " + meant),
                     meant.empty() ? Help{Help::Topic::all_plugins} : Help{});
     }
 

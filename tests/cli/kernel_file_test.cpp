@@ -287,6 +287,39 @@ TEST_CASE("messages call a kernel file by its path", "[kernel_files]") {
                {" half.kernel reflection\n"});
 }
 
+TEST_CASE("a parameter that a kernel file does not have, or a name without .kernel, is explained",
+          "[kernel_files]") {
+    const Workspace place;
+    expect(place.candela({"plot", "half.kernel:kx=3"}), 2,
+           {"half.kernel:kx: unknown key 'kx' in half.kernel", "(candela describe half.kernel)"});
+    for (const Words& words :
+         {Words{"describe", "../half"}, Words{"plot", "half.txt"}, Words{"plot", "../half"},
+          Words{"check", "scene.toml", "--reflection", "half.txt"}})
+        CHECK(holds(place.candela(words).err, "; the name of a kernel file ends with .kernel"));
+    for (const Words& words : {Words{"check", "scene.toml", "--reflection", "reflection/phong"},
+                               Words{"check", "scene.toml", "--set", "object.ball.type=ball.obj"}})
+        CHECK(!holds(place.candela(words).err, "ends with .kernel"));
+}
+
+TEST_CASE("two kernels of one name cannot be in one program", "[kernel_files]") {
+    const Workspace place;
+    fs::create_directories(place.directory / "other");
+    write_file(place.directory / "other/half.kernel", std::string(k_half) + "\n");
+    write_file(place.directory / "scene.toml",
+               Workspace::scene("reflection = \"half.kernel\"\n[[object]]\nname = \"ring\"\ntype = "
+                                "\"torus\"\nposition = [2, 0, 0]\nshading = \"flat\"\nreflection = "
+                                "\"other/half.kernel\"",
+                                "point"));
+    for (const Words& words : {Words{"generate", "scene.toml", "--target", "webgl", "-o", "page"},
+                               Words{"verify", "scene.toml", "--target", "cpp"}}) {
+        const CommandResult result = place.candela(words);
+        expect(result, 1,
+               {"object 'ring': the reflection models 'half.kernel' and 'other/half.kernel' have kernel "
+                "functions of the same names"});
+        CHECK(!holds(result.err, "--models"));
+    }
+}
+
 TEST_CASE("a shading model in a kernel file can be in a generated program", "[kernel_files]") {
     const Workspace place;
     write_file(place.directory / "smooth.kernel",

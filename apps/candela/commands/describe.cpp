@@ -44,7 +44,8 @@ const candela::PluginFile& plugin_called(const std::string& id, candela::Registr
     }
     const std::string meant = candela::suggestion(id, ids);
     throw Error(ErrorCategory::bad_request,
-                fmt::format("unknown plugin '{}'; {}", id, meant.empty() ? "candela list shows all" : meant));
+                fmt::format("unknown plugin '{}'{}; {}", id, candela::kernel_file_hint(id),
+                            meant.empty() ? "candela list shows all" : meant));
 }
 
 /// Keeps line breaks: a formula is laid out.

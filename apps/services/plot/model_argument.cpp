@@ -17,6 +17,25 @@ namespace {
 
 constexpr const char* k_name = "plot";
 
+/// Where a value was given, for diagnostics: "reflection/phong:ks".
+std::string origin_of(const NamedModel& model, const std::string& parameter) {
+    return fmt::format("{}:{}", candela::plugin_id(model.kind, model.name), parameter);
+}
+
+/// Reports values of parameters that the model does not have.
+void report_unknown_values(const NamedModel& model, const candela::Manifest& manifest,
+                           candela::Diagnostics& diagnostics) {
+    candela::TableNode table;
+    for (const auto& [name, value] : model.values) {
+        const candela::SourceLocation place{origin_of(model, name), 0, 0, 0};
+        table.entries.push_back({name, place, {place, value}});
+    }
+    std::vector<std::string> known;
+    for (const candela::Parameter& p : manifest.parameters) known.push_back(p.name);
+    const std::string id = candela::plugin_id(model.kind, model.name);
+    report_unknown_keys(table, known, {id, {candela::Help::Topic::plugin, id}, {}}, diagnostics);
+}
+
 /// A request with the model's values, so that errors in them are found as in any scene.
 candela::SceneRequest request_for(const NamedModel& model, const candela::Manifest& manifest) {
     const bool is_light = model.kind == PluginKind::light;
@@ -39,8 +58,8 @@ candela::SceneRequest request_for(const NamedModel& model, const candela::Manife
         "[[object]]\ntype = \"sphere\"\nposition = [0, 0, 400]\ncolor = [255, 255, 255]\n",
         is_light ? "phong" : model.name, light);
     for (const auto& [name, value] : model.values) {
-        const std::string origin = fmt::format("{}/{}:{}", name_of(model.kind), model.name, name);
-        request.settings.push_back({origin, (is_light ? "light.0." : "object.0.material.") + name, value});
+        request.settings.push_back(
+            {origin_of(model, name), (is_light ? "light.0." : "object.0.material.") + name, value});
     }
     return request;
 }
@@ -50,6 +69,8 @@ candela::SceneRequest request_for(const NamedModel& model, const candela::Manife
 candela::Scene scene_with(const NamedModel& model, candela::Registry& registry) {
     const candela::PluginFile& file = registry.require(model.kind, model.name);
     candela::Diagnostics diagnostics;
+    report_unknown_values(model, file.manifest, diagnostics);
+    if (diagnostics.has_errors()) throw usage_error(diagnostics);
     auto scene = candela::read_scene(request_for(model, file.manifest), registry, diagnostics);
     if (scene) return *std::move(scene);
     throw usage_error(diagnostics);
@@ -83,7 +104,8 @@ NamedModel model_from(const std::string& text, candela::Registry& registry) {
         const auto named = candela::plugin_kind_named(name.substr(0, slash));
         if (named != PluginKind::reflection && named != PluginKind::light) {
             throw Error(ErrorCategory::bad_request,
-                        fmt::format("'{}' cannot be plotted; expected a reflection model or a light", name));
+                        fmt::format("'{}' cannot be plotted; expected a reflection model or a light{}", name,
+                                    candela::kernel_file_hint(name)));
         }
         kind = *named;
         name.erase(0, slash + 1);
