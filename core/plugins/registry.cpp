@@ -97,18 +97,20 @@ std::string kernel_file_hint(std::string_view name) {
     return is_path ? "; the name of a kernel file ends with .kernel" : "";
 }
 
-KernelError::KernelError(SourceLocation place, const std::string& message, std::string source)
-    : Error(ErrorCategory::invalid_scene,
-            fmt::format("{}:{}:{}: {}", place.file, place.line, place.column, message)),
+KernelError::KernelError(SourceLocation place, const std::string& message, const std::string& hint,
+                         std::string source)
+    : Error(ErrorCategory::invalid_scene, fmt::format("{}:{}:{}: {}{}{}", place.file, place.line,
+                                                      place.column, message, hint.empty() ? "" : "; ", hint)),
       place_(std::move(place)),
       message_(message),
+      hint_(hint),
       source_(std::move(source)) {}
 
 KernelError::~KernelError() = default;
 
 void KernelError::report_in(Diagnostics& diagnostics) const {
     diagnostics.remember_source(place_.file, source_);
-    diagnostics.error(place_, message_);
+    diagnostics.error(place_, message_, hint_);
 }
 
 Registry::Registry(std::vector<fs::path> search_path, PluginTrust trust, std::size_t named_folders,

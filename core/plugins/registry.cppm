@@ -44,14 +44,16 @@ struct Refusal {
 /// A kernel file that is not a model, and where: `place` in `source`, its text.
 class CANDELA_EXPORT KernelError : public Error {
   public:
-    KernelError(SourceLocation place, const std::string& message, std::string source);
+    /// `hint`: a remedy; may be empty.
+    KernelError(SourceLocation place, const std::string& message, const std::string& hint,
+                std::string source);
     ~KernelError() override;
     /// Adds it as an error at its place, with the source's text.
     void report_in(Diagnostics& diagnostics) const;
 
   private:
     SourceLocation place_;
-    std::string message_, source_;
+    std::string message_, hint_, source_;
 };
 
 /// A plugin that was made of a kernel file: <kind>-<name>.so and its manifest in `folder`.

@@ -14,6 +14,7 @@
 #include "candela/kernel_language/compiler.h"
 #include "candela/kernel_language/kernel_cache.h"
 #include "candela/kernel_language/language.h"
+#include "candela/kernel_language/lexer.h"
 #include "candela/kernel_language/model.h"
 #include "process/process.h"
 #include "sandbox/temporary_folder.h"
@@ -44,9 +45,22 @@ std::vector<std::string> options() {
             "-DCANDELA_PLUGIN_VERSION=\"0\""};
 }
 
+/// The characters of the word, number or sign at a line and column; 0 if there is none.
+int length_at(std::string_view text, std::size_t line, std::size_t column) {
+    for (; line > 1 && text.find('\n') != std::string_view::npos; --line)
+        text.remove_prefix(text.find('\n') + 1);
+    text = text.substr(0, text.find('\n'));
+    for (; column > 1 && !text.empty(); --column) text.remove_prefix(first_character(text).size());
+    const std::vector<Lexeme> code = code_of(text);
+    return code.empty() || code.front().offset > 0 ? 0 : static_cast<int>(character_count(code.front().text));
+}
+
 [[noreturn]] void refuse(const Problem& problem, const std::string& text) {
-    throw KernelError({problem.file(), static_cast<int>(problem.line()), static_cast<int>(problem.column())},
-                      problem.what(), text);
+    const std::string whole = problem.what();
+    const std::size_t end = std::min(whole.find("; did you mean "), whole.size());
+    throw KernelError({problem.file(), static_cast<int>(problem.line()), static_cast<int>(problem.column()),
+                       length_at(text, problem.line(), problem.column())},
+                      whole.substr(0, end), whole.substr(std::min(end + 2, whole.size())), text);
 }
 
 /// The kernel, with the function that only a model which reflects ambient light needs to have.

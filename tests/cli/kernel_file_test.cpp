@@ -141,14 +141,15 @@ TEST_CASE("mistakes in a kernel file are shown with its line and a mark", "[kern
     write_file(place.directory / "half.kernel", wrong);
     const CommandResult in_scene = place.candela({"render", "scene.toml"});
     CHECK(in_scene.exit_code == 3);
+    CHECK(holds(in_scene.err, (place.directory / "half.kernel").string() +
+                                  ":15:43: error: unknown function 'dott'\n   15 |     return "));
     CHECK(holds(in_scene.err,
-                (place.directory / "half.kernel").string() +
-                    ":15:43: error: unknown function 'dott'; did you mean 'dot'?\n   15 |     return "));
-    CHECK(holds(in_scene.err, "\n      |                                           ^"));
+                "\n      |                                           ^^^^ did you mean 'dot'?\n"));
     CHECK(holds(in_scene.err.substr(in_scene.err.find("dott") + 100), "error:") == false);
     const CommandResult named = place.candela({"describe", "half.kernel"});
     CHECK(named.exit_code == 3);
-    CHECK(holds(named.err, "half.kernel:15:43: error: unknown function 'dott'"));
+    CHECK(holds(named.err, "half.kernel:15:43: error: unknown function 'dott'\n"));
+    CHECK(holds(named.err, "^^^^ did you mean 'dot'?\n"));
 
     for (const auto& [text, problem] :
          {std::pair{"#include </etc/passwd>\n",
@@ -327,5 +328,15 @@ TEST_CASE("a shading model in a kernel file can be in a generated program", "[ke
     succeeded(place.candela({"generate", "scene.toml", "--target", "webgl", "-o", "page", "--shading",
                              "./smooth.kernel", "--models", "half.kernel,phong"}));
     CHECK(holds(read_file(place.directory / "page/scene.html"), "\"id\":\"smooth.kernel\""));
+}
+
+TEST_CASE("a diagnostic of a kernel has a length and a hint, as any other", "[kernel_files]") {
+    const Workspace place;
+    std::string wrong = k_half;
+    wrong.replace(wrong.find("max(dot"), 7, "max(dott");
+    write_file(place.directory / "half.kernel", wrong);
+    expect_out(
+        place.candela({"check", "scene.toml", "--json"}), 3,
+        {"\"length\": 4", "\"message\": \"unknown function 'dott'\"", "\"hint\": \"did you mean 'dot'?\""});
 }
 
