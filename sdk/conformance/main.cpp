@@ -198,9 +198,11 @@ int run(int argc, char** argv) {
     po::store(po::command_line_parser(argc, argv).options(all).positional(positional).run(), values);
     po::notify(values);
     if (values.contains("help")) {
-        std::cout << "Usage: candela plugin test PLUGIN.so... [options]\n\nChecks everything about plugins "
-                     "that a host relies on, each check in its own process.\n\n"
-                  << visible;
+        std::cout
+            << "Usage: candela plugin test PLUGIN.so|FILE.kernel... [options]\n\nChecks everything about "
+               "plugins, and about kernel files as models, that a host relies on, each check in its own "
+               "process.\n\n"
+            << visible;
         return 0;
     }
     if (values.contains("list")) {

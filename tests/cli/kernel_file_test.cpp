@@ -340,3 +340,13 @@ TEST_CASE("a diagnostic of a kernel has a length and a hint, as any other", "[ke
         {"\"length\": 4", "\"message\": \"unknown function 'dott'\"", "\"hint\": \"did you mean 'dot'?\""});
 }
 
+TEST_CASE("help says where a kernel file can be named", "[kernel_files]") {
+    const Workspace place;
+    for (const Words& words :
+         {Words{"describe", "--help"}, Words{"plot", "--help"}, Words{"compare", "--help"},
+          Words{"plugin", "test", "--help"}, Words{"exercise", "new", "--help"}}) {
+        const std::string help = place.candela(words).out;
+        INFO(help);
+        CHECK((holds(help, "FILE.kernel") || holds(help, "kernel file")));
+    }
+}

@@ -220,7 +220,8 @@ int run_compare(const std::vector<std::string>& arguments) {
         "candela compare [SCENE...] [options]",
         "Render a scene with different models or values, and put the labelled pictures on one sheet: candela "
         "compare scene.toml --reflection lambert,phong,ggx --shading flat,phong. Give one or two of "
-        "--reflection, --shading, --vary and --terms several values, separated by commas.");
+        "--reflection, --shading, --vary and --terms several values, separated by commas. A model may be a "
+        "kernel file.");
     line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("comparison.png"),
                    "the sheet; its extension selects the format");
     add_variant_options(line);

@@ -127,8 +127,8 @@ void print(const candela::PluginFile& file, const std::string& id) {
 }  // namespace
 
 int run_describe(const std::vector<std::string>& arguments) {
-    CommandLine line("candela describe KIND/NAME [options]",
-                     "Explain a plugin: its formula, its paper, its parameters.");
+    CommandLine line("candela describe KIND/NAME|FILE.kernel [options]",
+                     "Explain a plugin or a kernel file: its formula, its paper, its parameters.");
     line.positional("plugin", 1);
     line.options()("json", "print the manifest as JSON");
     add_plugin_options(line);

@@ -234,7 +234,7 @@ std::string page_for(const Exercise& exercise, candela::Registry& registry) {
 }  // namespace
 
 int run_exercise_new(const std::vector<std::string>& arguments) {
-    CommandLine line("candela exercise new MODEL --blank FUNCTION [options]",
+    CommandLine line("candela exercise new MODEL|FILE.kernel --blank FUNCTION [options]",
                      "Create a page in which the body of one function of a reflection model's kernel is left "
                      "blank. While the reader writes it, the page shows how far off it is from the model, "
                      "where, and in which term. The page holds numbers from the model, not its formula, and "

@@ -139,9 +139,9 @@ int run_plot(const std::vector<std::string>& arguments) {
     CommandLine line(
         "candela plot MODEL... [options]",
         "Plot how reflection models reflect light from one direction, as a polar diagram in the plane of "
-        "incidence (SVG) or a table (CSV). MODEL is reflection/ggx or, with values of its parameters, "
-        "reflection/ggx:roughness=0.3,ior=1.8. Several models share one diagram. For lights (light/spot), "
-        "plot the emitted light over the angle with their axis and over the distance.");
+        "incidence (SVG) or a table (CSV). MODEL is reflection/ggx, a kernel file or, with values of "
+        "its parameters, reflection/ggx:roughness=0.3,ior=1.8. Several models share one diagram. For lights "
+        "(light/spot), plot the emitted light over the angle with their axis and over the distance.");
     line.positional("model", -1);
     line.options()("output,o", po::value<std::string>()->value_name("FILE"),
                    "the diagram, .svg or .csv; default: print the table")(
