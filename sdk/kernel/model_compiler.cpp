@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <functional>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -96,7 +98,10 @@ CheckedModel check(const Source& kernel, std::string_view name) {
         Kernel whole = read_kernel(kernel);
         const std::string text = completed(whole, prefix);
         if (text != kernel.text) whole = read_kernel({kernel.name, text});
-        return {text, emitted(whole, Emission::guarded_cpp), read_model(whole, name)};
+        ModelDeclaration model = read_model(whole, name);
+        // The same text is compiled once, wherever its file is.
+        whole.sources.front().name = fmt::format("{}.kernel", name);
+        return {text, emitted(whole, Emission::guarded_cpp), std::move(model)};
     } catch (const Problem& problem) {
         refuse(problem, kernel.text);
     }
@@ -142,11 +147,26 @@ void build(const CheckedModel& checked, const fs::path& compiler, const fs::path
     fs::remove(folder / "plugin.map");
 }
 
-bool is_complete(const fs::path& folder, const CheckedModel& checked, const std::string& library) {
-    std::error_code problem;
-    return is_own_folder(folder) && fs::exists(folder / (library + ".json"), problem) &&
-           fs::exists(folder / (library + ".so"), problem) &&
-           read_text_file(folder / (checked.model.name + ".kernel")) == checked.text;
+/// Keeps a model's plugin, made by `make` in a folder of its own.
+void fill(const fs::path& cache, const fs::path& folder, const std::function<void(const fs::path&)>& make) {
+    const auto refuse_folder = [&](const std::error_code& problem) {
+        throw Error(
+            ErrorCategory::failure,
+            fmt::format("compiled kernels cannot be kept in '{}': {} (XDG_CACHE_HOME names another folder)",
+                        cache.string(), problem.message()));
+    };
+    std::optional<TemporaryFolder> temporary;
+    try {
+        fs::create_directories(cache);
+        temporary.emplace("new-", cache);
+    } catch (const std::system_error& problem) {
+        refuse_folder(problem.code());
+    }
+    const fs::path made = temporary->path() / "plugin";
+    fs::create_directory(made);
+    make(made);
+    if (const std::error_code problem = keep(made, folder)) refuse_folder(problem);
+    remove_unused(cache);
 }
 
 }  // namespace
@@ -172,17 +192,10 @@ CompiledKernel compile_model(const Source& kernel, std::string_view name, const 
     for (const std::string& option : options()) hash.add(option);
     const fs::path folder = cache / hash.text();
     const CompiledKernel compiled{checked.model.kind, checked.model.name, folder};
-    if (is_complete(folder, checked, library)) return compiled;
-
-    fs::create_directories(cache);
-    const TemporaryFolder temporary("new-", cache);
-    const fs::path made = temporary.path() / "plugin";
-    fs::create_directory(made);
-    build(checked, *compiler, headers, made, library);
-    const std::error_code problem = keep(made, folder);
-    if (!is_complete(folder, checked, library))
-        throw Error(ErrorCategory::failure, fmt::format("the compiled kernel cannot be moved to '{}': {}",
-                                                        folder.string(), problem.message()));
+    const bool is_there =
+        is_kept(folder) && read_text_file(folder / (checked.model.name + ".kernel")) == checked.text;
+    if (!is_there)
+        fill(cache, folder, [&](const fs::path& made) { build(checked, *compiler, headers, made, library); });
     return compiled;
 }
 

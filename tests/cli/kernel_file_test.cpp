@@ -186,17 +186,85 @@ TEST_CASE("a kernel file that cannot be used says why", "[kernel_files]") {
                 "a kernel needs a C++ compiler, and none is installed (packages g++ or clang)"));
 }
 
-TEST_CASE("a kernel is compiled once, and again when its text has changed", "[kernel_files]") {
-    const Workspace place;
-    const std::string first = place.image({"render", "scene.toml"});
-    // The second time, the cache has the plugin.
-    const auto before = std::chrono::steady_clock::now();
-    CHECK(place.image({"render", "scene.toml"}) == first);
-    CHECK(std::chrono::steady_clock::now() - before < std::chrono::seconds(30));
-    std::string brighter = k_half;
-    brighter.replace(brighter.find("= 0.35"), 6, "= 0.70");
-    write_file(place.directory / "half.kernel", brighter);
-    CHECK(place.image({"render", "scene.toml"}) != first);
+namespace {
+
+/// A workspace whose compiled kernels no other test has.
+struct CachedWorkspace : Workspace {
+    CommandResult check(const std::string& kernel) const {
+        return run_candela({"check", "scene.toml", "--reflection", kernel},
+                           {.environment = {{"XDG_CACHE_HOME", cache.string()}}, .directory = directory});
+    }
+    std::vector<fs::path> compiled() const {
+        std::vector<fs::path> folders;
+        for (const auto& entry : fs::directory_iterator(cache / "candela/kernels"))
+            folders.push_back(entry.path());
+        return folders;
+    }
+    /// The only one that has been compiled.
+    fs::path library() const {
+        const std::vector<fs::path> folders = compiled();
+        REQUIRE(folders.size() == 1);
+        return folders.front() / "reflection-half.so";
+    }
+    fs::path cache = directory / "cache";
+};
+
+}  // namespace
+
+TEST_CASE("a kernel is compiled once, wherever its file is, and again when its text has changed",
+          "[kernel_files]") {
+    const CachedWorkspace place;
+    succeeded(place.check("half.kernel"));
+    const auto made = fs::last_write_time(place.library());
+    write_file(place.directory / "below/half.kernel", k_half);
+    for (const std::string& path : Words{"half.kernel", "./half.kernel", "below/half.kernel",
+                                         (place.directory / "half.kernel").string()}) {
+        succeeded(place.check(path));
+        CHECK(fs::last_write_time(place.library()) == made);
+    }
+    write_file(place.directory / "half.kernel", std::string(k_half) + "// another text\n");
+    succeeded(place.check("half.kernel"));
+    CHECK(place.compiled().size() == 2);
+}
+
+TEST_CASE("a compiled kernel that was damaged is compiled again", "[kernel_files]") {
+    const CachedWorkspace place;
+    succeeded(place.check("half.kernel"));
+    const fs::path library = place.library();
+    const auto size = fs::file_size(library);
+    const auto is_mended = [&] {
+        succeeded(place.check("half.kernel"));
+        return place.library() == library && fs::file_size(library) == size;
+    };
+    fs::resize_file(library, size / 2);
+    CHECK(is_mended());
+    fs::remove(library);
+    CHECK(is_mended());
+    fs::remove(library.parent_path() / "reflection-half.json");
+    CHECK(is_mended());
+}
+
+TEST_CASE("a compiled kernel that has not been used for a month is removed", "[kernel_files]") {
+    const CachedWorkspace place;
+    const auto weeks_ago = [](int weeks) {
+        return fs::file_time_type::clock::now() - std::chrono::hours(24 * 7 * weeks);
+    };
+    succeeded(place.check("half.kernel"));
+    const fs::path old = place.library().parent_path();
+    fs::last_write_time(old, weeks_ago(5));
+    succeeded(place.check("half.kernel"));  // uses it
+    CHECK(fs::last_write_time(old) > weeks_ago(1));
+    fs::last_write_time(old, weeks_ago(5));
+    write_file(place.directory / "half.kernel", std::string(k_half) + "// another text\n");
+    succeeded(place.check("half.kernel"));
+    CHECK(place.compiled().size() == 1);
+    CHECK(!fs::exists(old));
+}
+
+TEST_CASE("a cache that cannot be written is a failure that says how to choose another", "[kernel_files]") {
+    const CachedWorkspace place;
+    write_file(place.cache, "a file");
+    expect(place.check("half.kernel"), 1, {"compiled kernels cannot be kept in", "XDG_CACHE_HOME"});
 }
 
 namespace {

@@ -53,7 +53,7 @@ void KernelRunner::prepare() {
         program_.source();
     const fs::path kept_program =
         kept_.empty() ? fs::path() : kept_ / kl::ContentHash().add(prelude).add(text).text();
-    const bool is_there = !kept_.empty() && kl::is_own_folder(kept_program) &&
+    const bool is_there = !kept_.empty() && kl::is_kept(kept_program) &&
                           candela::read_text_file(kept_program / "kernels.cpp") == text &&
                           candela::read_text_file(kept_program / "candela/kernel/prelude.kernel") == prelude;
     const fs::path made = folder_.path() / "program";

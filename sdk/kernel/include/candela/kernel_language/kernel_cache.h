@@ -27,11 +27,15 @@ class ContentHash {
     std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
-/// Whether a folder exists, and only this user can have written to it, so that its contents can be run.
-bool is_own_folder(const std::filesystem::path& folder);
-
-/// Moves a complete folder from a place that only this user can enter into a cache, so that it appears there
-/// complete or not at all. Returns the problem, for which a faster process may be the reason.
+/// Moves a complete folder from a temporary folder, which only this user can enter, into a cache, so that it
+/// appears there complete or not at all. A damaged folder there moves into the temporary one.
 std::error_code keep(const std::filesystem::path& made, const std::filesystem::path& kept);
+
+/// Whether keep() has moved a folder there, only this user can have written to it, and its files are still
+/// the same, so that they can be run. Notes that it is in use.
+bool is_kept(const std::filesystem::path& folder);
+
+/// Removes from a cache what has not been used for a month.
+void remove_unused(const std::filesystem::path& cache);
 
 }  // namespace candela::kernel_language
