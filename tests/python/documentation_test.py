@@ -9,7 +9,8 @@ import unittest
 
 import candela
 
-PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs/user/python.md"
+DOCUMENTATION = pathlib.Path(__file__).resolve().parents[2] / "docs"
+PAGE = DOCUMENTATION / "user/python.md"
 
 SCENE = {
     "observer": {"position": [0, 0, 4], "look_at": [0, 0, 0]},
@@ -31,6 +32,8 @@ class Documentation(unittest.TestCase):
             os.chdir(folder)
             try:
                 pathlib.Path("scene.toml").write_text(candela.document(SCENE), encoding="utf-8")
+                velvet = re.search(r"^```glsl\n(.*?)^```", (DOCUMENTATION / "plugins/adding-a-model.md").read_text("utf-8"), re.M | re.S)
+                pathlib.Path("velvet.kernel").write_text(velvet[1], encoding="utf-8")
                 for line, block in blocks:
                     exec(compile("\n" * (line - 1) + block, str(PAGE), "exec"), names)
                 self.assertTrue(pathlib.Path("scene.png").read_bytes().startswith(b"\x89PNG"))

@@ -1,4 +1,8 @@
 """Models from a kernel's text."""
+import contextlib
+import os
+import pathlib
+import tempfile
 import unittest
 
 import numpy as np
@@ -18,6 +22,72 @@ KERNEL Reflected my_moon_reflect(MyMoonMaterial m, Surface s, vec3 to_light) {
     return Reflected(m.kd * s.color * n_dot_l * pow(max(n_dot_l * n_dot_v, 1.0e-6f), m.k - 1.0f), vec3(0.0f));
 }
 """
+
+
+SCENE = """
+version = 1
+observer = {position = [0, 0, 4], look_at = [0, 0, 0], projection = "orthographic", height = 0.5}
+image = {width = 2, height = 2}
+shading.model = "flat"
+light = [{type = "directional", direction = [0, 0, -1]}]
+object = [{type = "cube", color = [255, 255, 255], reflection = "my-moon.kernel", material = {kd = 0.5, k = 1}}]
+"""
+
+
+@contextlib.contextmanager
+def folder_with(**files):
+    """A new working folder with these files: my_moon for my-moon.kernel."""
+    before = os.getcwd()
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        try:
+            for name, text in files.items():
+                pathlib.Path(name.replace("_", "-") + ".kernel").write_text(text, encoding="utf-8")
+            yield pathlib.Path(folder)
+        finally:
+            os.chdir(before)
+
+
+class KernelFiles(unittest.TestCase):
+    def test_a_file_serves_wherever_a_model_is_named(self):
+        with folder_with(my_moon=MINNAERT):
+            expected = candela.kernel_reflection(MINNAERT, kd=0.5, k=1.5).evaluate([0, 1, 0], [0.6, 0.8, 0], [0, 1, 0])
+            for path in ("my-moon.kernel", "./my-moon.kernel", os.path.abspath("my-moon.kernel"), pathlib.Path("my-moon.kernel")):
+                model = candela.reflection(path, kd=0.5, k=1.5)
+                np.testing.assert_array_equal(model.evaluate([0, 1, 0], [0.6, 0.8, 0], [0, 1, 0]), expected)
+                for described in (model.model, candela.model(path)):
+                    self.assertEqual(described.id, "reflection/my-moon")
+                    self.assertEqual([parameter.name for parameter in described.parameters], ["kd", "k"])
+            outcomes = {check.outcome for check in candela.conformance("my-moon.kernel", kd=0.5, k=1)}
+            self.assertLessEqual(outcomes, {"passed", "warning", "skipped"})
+
+    def test_lights_and_shading_models_are_files_too(self):
+        with folder_with(dim="KERNEL Incident dim_illuminate(Receiver p) { return Incident(vec3(0.0f, 1.0f, 0.0f), vec3(0.5f), vec3(0.5f)); }",
+                         upward="KERNEL vec3 upward_normal(ShadingPoint p) { return vec3(0.0f, 1.0f, 0.0f); }"):
+            np.testing.assert_array_equal(candela.light("dim.kernel").illuminate([1, 2, 3]).diffuse, [0.5] * 3)
+            normals = candela.shading("upward.kernel").normals([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [1, 0, 0])
+            np.testing.assert_array_equal(normals, [0, 1, 0])
+            with self.assertRaisesRegex(candela.RequestError, "'dim.kernel' is a light model; expected a reflection model"):
+                candela.reflection("dim.kernel")
+
+    def test_scenes_name_a_file_next_to_them(self):
+        with folder_with(my_moon=MINNAERT) as folder:
+            (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
+            os.chdir("/")
+            scene = candela.Scene.load(folder / "scene.toml")
+            np.testing.assert_allclose(scene.render(floats=True), np.full((2, 2, 3), 0.5), rtol=1e-4)
+            self.assertEqual(candela.Scene.parse(scene.text()).render().tobytes(), scene.render().tobytes())
+
+    def test_a_mistake_in_a_file_has_its_place(self):
+        with folder_with(my_moon=MINNAERT.replace("float k;", "double k;")) as folder:
+            (folder / "scene.toml").write_text(SCENE, encoding="utf-8")
+            for error, attempt in ((candela.RequestError, lambda: candela.reflection("my-moon.kernel", registry=candela.Registry())),
+                                   (candela.RequestError, lambda: candela.model("my-moon.kernel", registry=candela.Registry())),
+                                   (candela.SceneError, lambda: candela.Scene.load("scene.toml", registry=candela.Registry()))):
+                with self.assertRaisesRegex(error, "my-moon.kernel:5:5: .*the kernel language has no 'double'") as raised:
+                    attempt()
+                found, = raised.exception.diagnostics
+                self.assertEqual((found.line, found.column, found.text), (5, 5, "    double k;  // 1: Lambert"))
 
 
 class Kernels(unittest.TestCase):

@@ -3,6 +3,8 @@
 #include "console/diagnostics_text.h"
 #include "module.h"
 
+import candela.plugins;
+
 namespace candela::python {
 
 namespace {
@@ -97,6 +99,12 @@ void add_errors(py::module_& module) {
         } catch (const InvalidInput& wrong) {
             raise(wrong.what_is_wrong() == InvalidInput::What::scene ? "SceneError" : "RequestError",
                   wrong.what(), wrong.problems());
+        } catch (const KernelError& error) {
+            // A text of the program, or a file that it names: a scene's are among its diagnostics.
+            Diagnostics diagnostics;
+            diagnostics.remember_source(error.place().file, error.source());
+            diagnostics.error(error.place(), error.message());
+            raise("RequestError", error.what(), problems_of(diagnostics));
         } catch (const Error& error) {
             raise(type_of(error.category()), python_message(error), {});
         }

@@ -6,19 +6,15 @@
 #include "module.h"
 
 import candela.plugins;
-import candela.util;
 
 namespace candela::python {
 
 namespace {
 
 /// The folder of the plugin.
-std::string compile_model(const std::string& source, const std::string& name) try {
+std::string compile_model(const std::string& source, const std::string& name) {
     return kernel_language::compile_model({name + ".kernel", source}, name, kernel_language::kernel_cache())
         .folder.string();
-} catch (const KernelError& problem) {
-    // It is a text of the program, not of a scene.
-    throw Error(ErrorCategory::bad_request, problem.what());
 }
 
 }  // namespace

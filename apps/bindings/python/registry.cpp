@@ -1,5 +1,6 @@
 #include "registry.h"
 
+#include "candela/kernel_language/model_compiler.h"
 #include "module.h"
 
 import candela.api;
@@ -26,12 +27,18 @@ std::string manifests(SharedRegistry& registry, const std::string& kind) {
     return to_json(all);
 }
 
+/// Without a kind, `name` is that of a kernel file.
+const PluginFile& required(SharedRegistry& registry, const std::string& kind, const std::string& name) {
+    return kind.empty() ? registry.registry().require_kernel(name)
+                        : registry.registry().require(kind_named(kind), name);
+}
+
 std::string manifest(SharedRegistry& registry, const std::string& kind, const std::string& name) {
-    return to_json(registry.registry().require(kind_named(kind), name).manifest);
+    return to_json(required(registry, kind, name).manifest);
 }
 
 std::filesystem::path library(SharedRegistry& registry, const std::string& kind, const std::string& name) {
-    return registry.registry().require(kind_named(kind), name).library;
+    return required(registry, kind, name).library;
 }
 
 std::vector<std::filesystem::path> search_path(SharedRegistry& registry) {
@@ -41,16 +48,18 @@ std::vector<std::filesystem::path> search_path(SharedRegistry& registry) {
 }  // namespace
 
 SharedRegistry::SharedRegistry(const std::vector<std::filesystem::path>& folders)
-    : registry_(plugin_search_path(folders), PluginTrust::own_and_system, folders.size(),
-                [this](const Refusal& refusal) {
-                    const std::lock_guard lock(mutex_);
-                    replaced_.push_back(
-                        {.severity = "warning",
-                         .file = refusal.file.string(),
-                         .message = refusal.reason,
-                         .suggestion = fmt::format("using '{}' instead", refusal.used_instead.string()),
-                         .text = {}});
-                }) {}
+    : registry_(
+          plugin_search_path(folders), PluginTrust::own_and_system, folders.size(),
+          [this](const Refusal& refusal) {
+              const std::lock_guard lock(mutex_);
+              replaced_.push_back(
+                  {.severity = "warning",
+                   .file = refusal.file.string(),
+                   .message = refusal.reason,
+                   .suggestion = fmt::format("using '{}' instead", refusal.used_instead.string()),
+                   .text = {}});
+          },
+          kernel_language::compile_kernel_file) {}
 
 std::vector<Problem> SharedRegistry::replaced() const {
     const std::lock_guard lock(mutex_);
@@ -65,7 +74,8 @@ void add_registry(py::module_& module) {
         .def_property_readonly("replaced", &SharedRegistry::replaced)
         .def("manifests", &manifests, py::arg("kind"), Unlocked(),
              "The manifests of a kind, or all (''), as JSON.")
-        .def("manifest", &manifest, py::arg("kind"), py::arg("name"), Unlocked(), "One manifest, as JSON.")
+        .def("manifest", &manifest, py::arg("kind"), py::arg("name"), Unlocked(),
+             "One manifest, as JSON; without a kind, that of a kernel file.")
         .def("library", &library, py::arg("kind"), py::arg("name"), Unlocked());
 }
 

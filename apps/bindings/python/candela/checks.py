@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import os
 import pathlib
 import subprocess
 from typing import Any, NamedTuple
 
 from . import _candela
 from .errors import Error
-from .registry import Registry, default_registry
+from .registry import Registry, default_registry, split_id
 
 
 class Check(NamedTuple):
@@ -21,16 +22,15 @@ class Check(NamedTuple):
     messages: list[str]
 
 
-def conformance(name: str, /, *, registry: Registry | None = None, **values: Any) -> list[Check]:
-    """Checks an installed model, by its id, such as ``"reflection/ggx"``, with the conformance kit: everything that Candela relies on, and
-    the properties that the model declares. Runs in a process of its own, like ``candela plugin test``.
+def conformance(name: str | os.PathLike[str], /, *, registry: Registry | None = None, **values: Any) -> list[Check]:
+    """Checks a model, by its id, such as ``"reflection/ggx"``, or by the path of its kernel file, with the conformance kit: everything
+    that Candela relies on, and the properties that the model declares. Runs in a process of its own, like ``candela plugin test``.
 
     `values` set parameters, in particular those without a default. Raises Error if there is no such model, or if the kit, which is in the
     package candela-dev, is not installed.
     """
     registry = registry or default_registry()
-    kind, _, plain = name.partition("/")
-    library = registry.core.library(kind, plain)
+    library = registry.core.library(*split_id(name))
     kit = pathlib.Path(registry.search_path[-1]).parent / "candela-conformance"
     if not kit.exists():
         raise Error(f"the conformance kit is not installed: '{kit}' does not exist (package candela-dev, or a build with tests)")

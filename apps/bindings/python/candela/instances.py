@@ -7,6 +7,7 @@ arrays of other types are converted. Arrays with contiguous channels, such as ``
 
 from __future__ import annotations
 
+import os
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -87,7 +88,7 @@ class _Instance:
     @property
     def model(self) -> Model:
         """The plugin's description of itself."""
-        return self._registry.model(f"{self._kind}/{self.name}")
+        return self._registry.described(self._kind, self.name)
 
     def __repr__(self) -> str:
         return f"candela.{self._kind}({', '.join([repr(self.name), *(f'{k}={v!r}' for k, v in self.values.items())])})"
@@ -276,24 +277,30 @@ class Shading(_Instance):
         return self._core.vertex_normals(positions, triangles)
 
 
-def reflection(name: str, /, *, color_management: str = "srgb", registry: Registry | None = None, **values: Any) -> Reflection:
-    """A reflection model by its name, with values for its parameters as in a scene file: ``reflection("ggx", roughness=0.2)``.
+def reflection(name: str | os.PathLike[str], /, *, color_management: str = "srgb", registry: Registry | None = None,
+               **values: Any) -> Reflection:
+    """A reflection model by its name, or by the path of its kernel file, with values for its parameters as in a scene file:
+    ``reflection("ggx", roughness=0.2)``.
 
-    Raises RequestError, listing all invalid values, or Error if there is no such model. `color_management` is the encoding of parameters
+    Raises RequestError, listing all invalid values, or Error if there is no such model. A kernel file is compiled when it is first named
+    (see `kernel_reflection`); RequestError says what is wrong in it, and where. `color_management` is the encoding of parameters
     that are colours (0 to 255): ``"srgb"`` or ``"none"``.
     """
     registry = registry or default_registry()
-    return Reflection(_candela.Reflection(registry.core, name, values, color_management), registry)
+    return Reflection(_candela.Reflection(registry.core, os.fspath(name), values, color_management), registry)
 
 
-def light(name: str, /, *, color_management: str = "srgb", registry: Registry | None = None, **values: Any) -> Light:
-    """A light by the name of its type, with values as in a scene file: ``light("point", position=(0, 2, 0), intensity=20)``. Raises like
+def light(name: str | os.PathLike[str], /, *, color_management: str = "srgb", registry: Registry | None = None,
+          **values: Any) -> Light:
+    """A light by the name of its type, or by the path of its kernel file, with values as in a scene file: ``light("point", position=(0, 2, 0), intensity=20)``. Raises like
     `reflection`."""
     registry = registry or default_registry()
-    return Light(_candela.Light(registry.core, name, values, color_management), registry)
+    return Light(_candela.Light(registry.core, os.fspath(name), values, color_management), registry)
 
 
-def shading(name: str, /, *, color_management: str = "srgb", registry: Registry | None = None, **values: Any) -> Shading:
-    """A shading model by its name, with values as in a scene file: ``shading("phong")``. Raises like `reflection`."""
+def shading(name: str | os.PathLike[str], /, *, color_management: str = "srgb", registry: Registry | None = None,
+            **values: Any) -> Shading:
+    """A shading model by its name, or by the path of its kernel file, with values as in a scene file: ``shading("phong")``. Raises
+    like `reflection`."""
     registry = registry or default_registry()
-    return Shading(_candela.Shading(registry.core, name, values, color_management), registry)
+    return Shading(_candela.Shading(registry.core, os.fspath(name), values, color_management), registry)

@@ -66,10 +66,22 @@ def _model(manifest: dict[str, Any]) -> Model:
         {preset["name"]: preset["values"] for preset in manifest.get("presets", ())})
 
 
+def split_id(name: str | os.PathLike[str]) -> tuple[str, str]:
+    """``("reflection", "ggx")`` from ``"reflection/ggx"``; no kind and the path from that of a kernel file."""
+    name = os.fspath(name)
+    if name.endswith(".kernel"):
+        return "", name
+    kind, slash, plain = name.partition("/")
+    if not slash:
+        raise RequestError(f"'{name}' is not a model's id; expected KIND/NAME, such as 'reflection/ggx', or the path of a kernel file")
+    return kind, plain
+
+
 class Registry:
     """The plugins of a search path: `folders`, then ``CANDELA_PLUGIN_PATH``, the user's own and the installed ones.
 
-    Functions that take a registry share a default one if none is given. Any thread.
+    Functions that take a registry share a default one if none is given. A registry reads a kernel file only once: after an edit,
+    use a new one. Any thread.
     """
 
     core: _candela.Registry
@@ -91,12 +103,14 @@ class Registry:
         self.warn_of_replaced()
         return [_model(manifest) for manifest in found]
 
-    def model(self, name: str) -> Model:
-        """One model, by its id: ``"reflection/ggx"``. Raises Error, with a suggestion, if there is none."""
-        kind, slash, plain = name.partition("/")
-        if not slash:
-            raise RequestError(f"'{name}' is not a model's id; expected KIND/NAME, such as 'reflection/ggx'")
-        found = _model(json.loads(self.core.manifest(kind, plain)))
+    def model(self, name: str | os.PathLike[str]) -> Model:
+        """One model, by its id, ``"reflection/ggx"``, or by the path of its kernel file. Raises Error, with a suggestion, if there is
+        none."""
+        return self.described(*split_id(name))
+
+    def described(self, kind: str, name: str) -> Model:
+        """For the package's own use: the model of that kind and name; without a kind, `name` is that of a kernel file."""
+        found = _model(json.loads(self.core.manifest(kind, name)))
         self.warn_of_replaced()
         return found
 
@@ -119,6 +133,6 @@ def models(kind: str | None = None, registry: Registry | None = None) -> list[Mo
     return (registry or default_registry()).models(kind)
 
 
-def model(name: str, registry: Registry | None = None) -> Model:
-    """One installed model by its id, ``"reflection/ggx"``: see `Registry.model`."""
+def model(name: str | os.PathLike[str], registry: Registry | None = None) -> Model:
+    """One model by its id, ``"reflection/ggx"``, or by the path of its kernel file: see `Registry.model`."""
     return (registry or default_registry()).model(name)
