@@ -73,6 +73,10 @@ void Checker::require_new_name(const std::string& name, TextPosition place) {
             return structure.name == name;
         }))
         throw Refusal{place, fmt::format("'{}' is the name of a type; choose another", name)};
+    if (is_glsl_function(name))
+        throw Refusal{
+            place,
+            fmt::format("'{}' is a function of GLSL, the language of shaders; choose another name", name)};
     if (builtin_functions().contains(name) || declared_.functions.contains(name))
         throw Refusal{place, fmt::format("'{}' is a function already; choose another name", name)};
     if (seen_as(name) != nullptr)
@@ -86,6 +90,11 @@ void Checker::structure(Structure& structure) {
     std::set<std::string> names;
     for (Variable& member : structure.members) {
         resolve(member.type);
+        // glslangValidator takes it for the method of arrays, whatever stands before the point.
+        if (member.name == "length")
+            throw Refusal{
+                member.place,
+                "a member cannot be called 'length', which is a method in GLSL; choose another name"};
         if (!names.insert(member.name).second)
             throw Refusal{member.place, fmt::format("'{}' is a member already", member.name)};
         structure.numbers += numbers_in(member.type.type);

@@ -51,7 +51,9 @@ const Token& TokenReader::expect_name(std::string_view what) {
 
 const Token& TokenReader::expect_new_name(std::string_view what) {
     if (is("*") || is("&&")) refuse(peek(), "the kernel language has neither pointers nor references");
-    return expect_name(what);
+    const Token& name = expect_name(what);
+    if (const std::string problem = problem_with_new_name(name.text); !problem.empty()) refuse(name, problem);
+    return name;
 }
 
 void TokenReader::refuse(const Token& token, std::string message) {

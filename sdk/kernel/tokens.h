@@ -26,8 +26,14 @@ struct Refusal {
 /// The tokens of `text`, followed by an `end`. Throws Refusal.
 std::vector<Token> tokens_of(std::string_view text, std::uint8_t source);
 
-/// Why a kernel must not declare this name; empty if it may.
+/// Why a name cannot be one of a kernel's, or of the prelude's that it uses; empty if it can.
 std::string problem_with_name(std::string_view name);
+
+/// Why a kernel must not declare this name, which C++ or GLSL reserves; empty if it may.
+std::string problem_with_new_name(std::string_view name);
+
+/// Whether GLSL has a function of that name, which the kernel language does not have.
+bool is_glsl_function(std::string_view name);
 
 /// Whether the word is reserved by C++ or by the language itself.
 bool is_keyword(std::string_view word);

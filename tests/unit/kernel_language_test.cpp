@@ -1,4 +1,6 @@
 // The kernel language: what it accepts, what it refuses and where, and what is compiled of it.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
@@ -294,6 +296,96 @@ TEST_CASE(
         {"float a = 1.0; if (a = 2.0) { }", "compare numbers with =="},
         {"Reflected r = x_reflect(m, s, to_light);", "x_reflect() calls itself"},
     });
+}
+
+TEST_CASE(
+    "kernel language: what C++ or GLSL reserves is refused as a name, in all places where one is declared") {
+    for (const std::string name : {"active",
+                                   "attribute",
+                                   "buffer",
+                                   "cast",
+                                   "centroid",
+                                   "coherent",
+                                   "common",
+                                   "discard",
+                                   "external",
+                                   "filter",
+                                   "fixed",
+                                   "flat",
+                                   "half",
+                                   "highp",
+                                   "in",
+                                   "inout",
+                                   "input",
+                                   "interface",
+                                   "invariant",
+                                   "layout",
+                                   "lowp",
+                                   "mediump",
+                                   "noinline",
+                                   "out",
+                                   "output",
+                                   "packed",
+                                   "partition",
+                                   "patch",
+                                   "precise",
+                                   "precision",
+                                   "resource",
+                                   "row_major",
+                                   "sample",
+                                   "shared",
+                                   "smooth",
+                                   "superp",
+                                   "uint",
+                                   "uniform",
+                                   "varying",
+                                   "readonly",
+                                   "noperspective",
+                                   "subroutine",
+                                   "mat2",
+                                   "mat4",
+                                   "mat2x3",
+                                   "dmat3",
+                                   "ivec2",
+                                   "bvec3",
+                                   "uvec4",
+                                   "fvec2",
+                                   "sampler1D",
+                                   "sampler2D",
+                                   "samplerCubeShadow",
+                                   "isampler2DArray",
+                                   "usamplerBuffer",
+                                   "image3D",
+                                   "iimage2D",
+                                   "texture2D",
+                                   "sampler3DRect",
+                                   "image2DMSArray"}) {
+        INFO(name);
+        const std::string expected =
+            fmt::format("'{}' is a word of GLSL, the language of shaders; choose another name", name);
+        CHECK(problem_in(fmt::format("float {} = 1.0;", name)) == "answer:1:7: " + expected);
+        for (const char* const text :
+             {"struct M {{ float {}; }};", "struct {} {{ float x; }};", "const int {} = 1;",
+              "KERNEL int {}(int x) {{ return x; }}", "KERNEL int x(int {}) {{ return 1; }}"})
+            CHECK(holds(problem_in_kernel(fmt::format(fmt::runtime(text), name)), expected));
+    }
+    for (const char* const name :
+         {"double", "class", "gl_x", "GL_ES", "webgl_x", "a__b", "_x", "M_PI", "NAN", "INFINITY", "std"}) {
+        INFO(name);
+        CHECK(problem_in(fmt::format("float {} = 1.0;", name)).starts_with("answer:1:7: "));
+    }
+    // GLSL ES does not let a declaration outside functions replace one of its functions; a variable may.
+    for (const char* const text :
+         {"struct {} {{ float x; }};", "const int {} = 1;", "KERNEL int {}(int x) {{ return x; }}"})
+        CHECK(holds(problem_in_kernel(fmt::format(fmt::runtime(text), "round")),
+                    "'round' is a function of GLSL"));
+    CHECK(holds(problem_in_kernel("struct M { float x, length; };"),
+                "x.kernel:1:21: a member cannot be called 'length'"));
+    for (const char* const name : {"length", "round", "texture", "image", "sampler_2d", "mat22", "vec",
+                                   "position", "color", "insides"}) {
+        INFO(name);
+        CHECK(problem_in(fmt::format("float {} = 1.0; return Reflected(s.color, s.color);", name)) == "");
+    }
 }
 
 TEST_CASE("kernel language: an integer is converted to a real number where GLSL does so") {
