@@ -1,7 +1,5 @@
 #include "subject.h"
 
-#include "conditions.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -15,9 +13,12 @@
 #include <stdexcept>
 #include <variant>
 
+#include "candela/kernel_language/declarations.h"
+
 import candela.api;
 import candela.plugins;
 
+namespace kl = candela::kernel_language;
 using candela::Parameter;
 using candela::ParamType;
 using candela::Vec3;
@@ -249,7 +250,7 @@ bool declares_for(const std::string& property, const Values& values) {
     const auto value = subject_manifest().property(property);
     if (!value) return false;
     try {
-        return hold(conditions_of(*value), values.set);
+        return kl::hold(kl::conditions_of(*value), values.set);
     } catch (const std::invalid_argument&) {
         return true;  // "declarations" reports the problem
     }

@@ -64,11 +64,12 @@ class CommentReader {
         skip_blanks();
         return at_ >= line_.size();
     }
-    TextPosition place() const { return comment_.place(at_); }
-    [[noreturn]] void refuse(const std::string& message) {
+    /// Of what is next.
+    TextPosition next_place() {
         skip_blanks();
-        throw Refusal{place(), message};
+        return comment_.place(at_);
     }
+    [[noreturn]] void refuse(const std::string& message) { throw Refusal{next_place(), message}; }
     bool is(std::string_view text) {
         skip_blanks();
         return line_.substr(at_).starts_with(text);
@@ -142,7 +143,7 @@ std::vector<float> read_numbers(CommentReader& line) {
 
 /// "kd + ks <= 1 because …", "inner < outer because …".
 RelationDeclaration read_relation(CommentReader line, bool only_warns) {
-    RelationDeclaration relation{.only_warns = only_warns};
+    RelationDeclaration relation{.only_warns = only_warns, .place = line.next_place()};
     constexpr const char* k_forms = "'a <= b because …', 'a < b because …' or 'a + b <= 1 because …'";
     relation.left = line.word();
     if (line.skip("+")) {
@@ -166,7 +167,7 @@ RelationDeclaration read_relation(CommentReader line, bool only_warns) {
 
 /// "brass (author, year, title): ka = 0.3 0.2 0.03, shininess = 28, color = 255 255 255".
 PresetDeclaration read_preset(CommentReader line) {
-    PresetDeclaration preset;
+    PresetDeclaration preset{.place = line.next_place()};
     preset.name = line.until("(", "'name (source): parameter = numbers, …'");
     preset.source = line.until("):", "'):' after the source");
     do {
@@ -184,15 +185,15 @@ PresetDeclaration read_preset(CommentReader line) {
 
 void read_properties(CommentReader line, ModelDeclaration& model) {
     do {
-        const std::string_view name = line.word();
-        if (name.empty()) line.refuse("expected the name of a property");
-        std::string value = "true";
+        PropertyDeclaration property{.place = line.next_place()};
+        property.name = line.word();
+        if (property.name.empty()) line.refuse("expected the name of a property");
         if (line.skip("=")) {
-            value = line.word();
+            property.value = line.word();
             for (std::string_view word = line.word(); !word.empty(); word = line.word())
-                value += fmt::format(" {}", word);
+                property.value += fmt::format(" {}", word);
         }
-        model.properties.emplace_back(name, value);
+        model.properties.push_back(std::move(property));
     } while (line.skip(","));
     if (!line.at_end()) line.refuse("expected ',' or the end of the line");
 }
@@ -222,7 +223,14 @@ void read_equation(const CommentText& part, ModelDeclaration& model) {
     if (end == std::string_view::npos) throw Refusal{part.place(), "this equation has no closing $$"};
     if (end + 2 != text.size())
         throw Refusal{part.place(end + 4), "expected a line of its own after an equation"};
-    model.formula.emplace_back(trimmed(text.substr(0, end)));
+    const std::string_view tex = trimmed(text.substr(0, end));
+    try {
+        static_cast<void>(plain_text(tex));
+    } catch (const EquationProblem& problem) {
+        const auto begin = static_cast<std::size_t>(tex.data() - part.text().data());
+        throw Refusal{part.place(begin + problem.offset()), problem.what()};
+    }
+    model.formula.emplace_back(tex);
 }
 
 void read_part(const CommentText& part, ModelDeclaration& model) {
@@ -241,10 +249,12 @@ void read_part(const CommentText& part, ModelDeclaration& model) {
     } else if (line.skip("expects:")) {
         model.relations.push_back(read_relation(line, true));
     } else if (line.skip("presets:")) {
+        model.preset_set_place = part.place();
         model.preset_set = read_one_of(line, {"classic", "metals"});
     } else if (line.skip("preset:")) {
         model.presets.push_back(read_preset(line));
     } else if (line.skip("rate:")) {
+        model.rate_place = part.place();
         model.rate = read_one_of(line, {"face", "vertex", "fragment"});
     } else if (model.summary.empty()) {
         model.summary = line.rest();
@@ -293,6 +303,7 @@ bool fits(ParamType type, Kind kind) {
 }
 
 void read_default(CommentReader& line, ParameterDeclaration& parameter) {
+    parameter.default_place = line.next_place();
     if (parameter.type == ParamType::boolean) {
         const std::string_view word = line.word();
         if (word != "true" && word != "false") line.refuse("expected true or false");
@@ -307,7 +318,6 @@ void read_default(CommentReader& line, ParameterDeclaration& parameter) {
         } while (line.skip("|"));
         return;
     }
-    const TextPosition place = line.place();
     parameter.numbers = read_numbers(line);
     const std::size_t count = parameter.numbers.size();
     if (parameter.type == ParamType::rgb && count == 1)
@@ -318,12 +328,14 @@ void read_default(CommentReader& line, ParameterDeclaration& parameter) {
                                    ? 1
                                    : 3;
     if (parameter.numbers.size() != wanted)
-        throw Refusal{place, fmt::format("expected {} {} as the default of '{}', got {}", wanted,
-                                         wanted == 1 ? "number" : "numbers", parameter.name, count)};
+        throw Refusal{parameter.default_place,
+                      fmt::format("expected {} {} as the default of '{}', got {}", wanted,
+                                  wanted == 1 ? "number" : "numbers", parameter.name, count)};
 }
 
 /// "[0, 1]", "(0, inf)", "[0, 90)".
 void read_range(CommentReader& line, ParameterDeclaration& parameter) {
+    parameter.range_place = line.next_place();
     const bool excludes_minimum = line.is("(");
     if (!line.skip("[") && !line.skip("(")) return;
     const auto bound = [&](float infinite) {

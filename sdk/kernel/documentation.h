@@ -39,6 +39,10 @@ std::optional<CommentText> comment_behind(std::string_view kernel, std::size_t d
 /// Reads the description of the model: its title, its prose, and what has a keyword. Throws Refusal.
 void read_documentation(const std::vector<CommentText>& lines, ModelDeclaration& model);
 
+/// Checks what the comments declare as a scene would: defaults and presets are within their ranges,
+/// properties and relations exist, and so on. Throws Refusal.
+void check_declarations(const ModelDeclaration& model);
+
 /// Reads what the comment says of the parameter `member`, such as "= 0.2 [0.02, 1]: the width of the
 /// highlight". Throws Refusal.
 ParameterDeclaration read_parameter(const Variable& member, const std::optional<CommentText>& comment);

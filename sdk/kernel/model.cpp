@@ -96,6 +96,7 @@ class ModelReader {
         find_kind();
         read_documentation(first_comment(text()), model_);
         find_structure();
+        check_declarations(model_);
         if (model_.title.empty()) model_.title = usual_title();
         if (model_.summary.empty())
             model_.summary = fmt::format("A {} model from {}.kernel.", name_of(model_.kind), model_.name);

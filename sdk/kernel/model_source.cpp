@@ -203,8 +203,8 @@ class SourceWriter {
     void write_properties() {
         if (model_.properties.empty()) return;
         text_ += "constexpr candela::Property k_properties[] = {\n";
-        for (const auto& [name, given] : model_.properties)
-            text_ += fmt::format("    {{{}, {}}},\n", literal(name), literal(given));
+        for (const PropertyDeclaration& property : model_.properties)
+            text_ += fmt::format("    {{{}, {}}},\n", literal(property.name), literal(property.value));
         text_ += "};\n\n";
     }
 

@@ -1,12 +1,16 @@
 // Equations in TeX as plain text.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "candela/kernel_language/model.h"
+
+import candela.util;
 
 namespace candela::kernel_language {
 
@@ -15,12 +19,33 @@ namespace {
 // Within the converter: a wide blank, and the bars around a length. They become blanks and bars at the end.
 constexpr char k_wide = '\x01', k_open_bar = '\x02', k_closing_bar = '\x03';
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 25> k_signs{
-    {{"cdot", "."},     {"times", " x "}, {"le", " <= "},     {"ge", " >= "},    {"lt", " < "},
-     {"gt", " > "},     {"ne", " != "},   {"lvert", "\x02"},  {"rvert", "\x03"}, {"lVert", "\x02"},
-     {"rVert", "\x03"}, {"left", ""},     {"right", ""},      {"quad", "\x01"},  {"qquad", "\x01"},
-     {"dots", "..."},   {"ldots", "..."}, {"approx", " ~ "},  {"infty", "inf"},  {"hat", ""},
-     {"vec", ""},       {"circ", " deg"}, {"lceil", "ceil("}, {"rceil", ")"},    {"Delta", "d"}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 36> k_signs{
+    {{"cdot", "."},     {"leq", " <= "},   {"geq", " >= "},  {"neq", " != "},    {"pm", " +- "},
+     {"ll", " << "},    {"gg", " >> "},    {"bar", ""},      {"tilde", ""},      {"cdots", "..."},
+     {"to", " -> "},    {"mid", " | "},    {"times", " x "}, {"le", " <= "},     {"ge", " >= "},
+     {"lt", " < "},     {"gt", " > "},     {"ne", " != "},   {"lvert", "\x02"},  {"rvert", "\x03"},
+     {"lVert", "\x02"}, {"rVert", "\x03"}, {"left", ""},     {"right", ""},      {"quad", "\x01"},
+     {"qquad", "\x01"}, {"dots", "..."},   {"ldots", "..."}, {"approx", " ~ "},  {"infty", "inf"},
+     {"hat", ""},       {"vec", ""},       {"circ", " deg"}, {"lceil", "ceil("}, {"rceil", ")"},
+     {"Delta", "d"}}};
+
+/// Commands that are printed as their names.
+constexpr auto k_names = std::to_array<std::string_view>({
+    // clang-format off
+    "alpha", "beta", "gamma", "delta", "epsilon", "varepsilon", "zeta", "eta", "theta", "vartheta", "iota",
+    "kappa", "lambda", "mu", "nu", "xi", "pi", "rho", "varrho", "sigma", "tau", "upsilon", "phi", "varphi",
+    "chi", "psi", "omega", "Gamma", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon", "Phi", "Psi", "Omega",
+    "sin", "cos", "tan", "cot", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "exp", "ln", "log", "lg",
+    "min", "max", "inf", "sup", "lim", "arg", "det", "sum", "prod", "int", "iint", "partial", "nabla"
+    // clang-format on
+});
+
+/// Commands whose argument is a text.
+constexpr auto k_fonts = std::to_array<std::string_view>(
+    {"text", "mathrm", "mathit", "mathbf", "mathcal", "operatorname", "boldsymbol"});
+
+/// Commands with arguments that the converter knows.
+constexpr auto k_structures = std::to_array<std::string_view>({"frac", "sqrt"});
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
@@ -92,16 +117,22 @@ class Converter {
     char peek() const { return at_ < tex_.size() ? tex_[at_] : '\0'; }
 
     std::string sequence(char end) {
+        const std::size_t begin = at_ - 1;
         std::string text;
         while (at_ < tex_.size() && peek() != end) text += part();
-        if (at_ < tex_.size()) ++at_;
+        if (at_ < tex_.size())
+            ++at_;
+        else if (end != '\0')
+            throw EquationProblem(begin, "this '{' is not closed");
         return text;
     }
 
     std::string part() {
+        if (at_ == tex_.size()) throw EquationProblem(at_, "expected an argument");
         const char c = tex_[at_++];
         if (c == '\\') return command();
         if (c == '{') return sequence('}');
+        if (c == '}') throw EquationProblem(at_ - 1, "this '}' has no opening '{'");
         if (c == '&' || c == '~') return " ";
         if (c == '^' || c == '_') return c + script(argument());
         return std::string(1, c);
@@ -132,14 +163,27 @@ class Converter {
                                is_compound(below) ? "(" + below + ")" : below);
         }
         if (name == "sqrt") return fmt::format("sqrt({})", argument());
-        if (name == "text" || name == "mathrm" || name == "mathit" || name == "operatorname" ||
-            name == "mathbf" || name == "boldsymbol") {
+        if (std::ranges::find(k_fonts, name) != k_fonts.end()) {
             while (peek() == ' ') ++at_;
             return peek() == '{' ? (++at_, sequence('}')) : part();
         }
         for (const auto& [each, sign] : k_signs)
             if (each == name) return std::string(sign);
-        return std::string(name);
+        if (std::ranges::find(k_names, name) != k_names.end()) return std::string(name);
+        refuse(begin - 1, name);
+    }
+
+    [[noreturn]] static void refuse(std::size_t at, std::string_view command) {
+        std::vector<std::string> known;
+        for (const auto& [each, sign] : k_signs) known.emplace_back(each);
+        for (const std::string_view each : k_names) known.emplace_back(each);
+        for (const std::string_view each : k_fonts) known.emplace_back(each);
+        for (const std::string_view each : k_structures) known.emplace_back(each);
+        for (std::string& each : known) each.insert(0, "\\");
+        const std::string written = fmt::format("\\{}", command);
+        const std::string meant = suggestion(written, known);
+        throw EquationProblem(at, fmt::format("unknown command '{}' in an equation{}{}", shortened(written),
+                                              meant.empty() ? "" : "; ", meant));
     }
 
     std::string_view tex_;

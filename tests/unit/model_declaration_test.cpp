@@ -60,7 +60,7 @@ TEST_CASE("a comment above the struct describes the model") {
                    "///\n"
                    "/// reference: Author (1999), A title,\n"
                    "/// a journal\n"
-                   "/// properties: isotropic, attenuation = by distance\n"
+                   "/// properties: isotropic, reciprocal = where kd is 1 or 2\n"
                    "/// preset: brass (Somebody, 2001): kd = 0.1 0.2 0.3, color = 1 2 3\n");
     CHECK(model.kind == candela::PluginKind::reflection);
     CHECK(model.title == "A title");
@@ -71,7 +71,8 @@ TEST_CASE("a comment above the struct describes the model") {
     CHECK(kl::plain_text(model.formula[1]) == "H = (L + V) / |L + V|");
     CHECK(model.reference == "Author (1999), A title, a journal");
     REQUIRE(model.properties.size() == 2);
-    CHECK(model.properties[1] == std::pair<std::string, std::string>("attenuation", "by distance"));
+    CHECK(model.properties[1].name == "reciprocal");
+    CHECK(model.properties[1].value == "where kd is 1 or 2");
     REQUIRE(model.presets.size() == 1);
     CHECK(model.presets[0].name == "brass");
     CHECK(model.presets[0].source == "Somebody, 2001");
@@ -116,7 +117,7 @@ TEST_CASE("mistakes in a declaration are reported at their place") {
              Case{"float a;  /// = x: m", "", "x.kernel:2:21: expected a number"},
              Case{"float a;  /// = 1 [0; 1]: m", "", "x.kernel:2:25: expected ',' and the upper bound"},
              Case{"float a;  /// = 1 2: m", "",
-                  "x.kernel:2:20: expected 1 number as the default of 'a', got 2"},
+                  "x.kernel:2:21: expected 1 number as the default of 'a', got 2"},
              Case{"float a;  /// color = 1: m", "",
                   "x.kernel:2:19: the parameter 'a' is a float, which cannot hold a color"},
              Case{"float a;  /// = 1", "",
@@ -135,6 +136,79 @@ TEST_CASE("mistakes in a declaration are reported at their place") {
         INFO(member << " " << comment);
         CHECK(problem_with(member, comment) == problem);
     }
+}
+
+TEST_CASE("declarations that no scene could use are reported at their place") {
+    struct Case {
+        const char* member;
+        const char* comment;
+        const char* problem;
+    };
+    for (const auto& [member, comment, problem] : {
+             Case{"float a;  /// = 10 [10000, 0]: m", "",
+                  "x.kernel:2:24: the range of 'a' is empty: from 10000 to 0"},
+             Case{"float a;  /// = 1 [1, 1): m", "", "x.kernel:2:23: the range of 'a' is empty: from 1 to 1"},
+             Case{"float a;  /// = 99999 [0, 10000]: m", "",
+                  "x.kernel:2:21: the default of 'a': 99999 is outside its range: 0 to 10000"},
+             Case{"vec3 a;  /// = 0.5 0.5 2 [0, 1]: m", "",
+                  "x.kernel:2:20: the default of 'a': [0.5, 0.5, 2] is outside its range: 0 to 1"},
+             Case{"int a;  /// = 2.5: m", "", "x.kernel:2:19: 'a' is an integer, which cannot be 2.5"},
+             Case{"int a;  /// = b | c | b: m", "", "x.kernel:2:19: 'b' is a choice already"},
+             Case{"vec3 a;  /// direction = 0 0 0: m", "",
+                  "x.kernel:2:30: the default of 'a': a direction cannot be zero"},
+             Case{"float a;  /// = 1: m", "/// properties: isotropic, reciprocl\n",
+                  "x.kernel:1:28: unknown property 'reciprocl'; did you mean 'reciprocal'? (known: "
+                  "reciprocal, "
+                  "energy-bounded, isotropic, lights-below-horizon, may-be-negative, fixed-in-world)"},
+             Case{"float a;  /// = 1: m", "/// properties: closed\n",
+                  "x.kernel:1:17: 'closed' is a property of a shape plugin, not of a reflection plugin"},
+             Case{"float a;  /// = 1: m", "/// properties: isotropic, isotropic\n",
+                  "x.kernel:1:28: 'isotropic' is declared already"},
+             Case{"float a;  /// = 1: m", "/// properties: reciprocal = where b is 1\n",
+                  "x.kernel:1:17: the property 'reciprocal' is 'where b is 1'; it has no parameter 'b'"},
+             Case{"float a;  /// = 1: m", "/// requires: a < c because so it is\n",
+                  "x.kernel:1:15: the relation \"a is less than c: so it is\" is about 'c', but there is no "
+                  "such parameter; did you mean 'a'?"},
+             Case{"float a, b;  /// = 1: m", "/// requires: a < b because so it is\n",
+                  "x.kernel:1:15: the defaults: a (1) must be less than b (1): so it is"},
+             Case{"float a;  /// = 1 [0, 1]: m", "/// preset: p (s): a = 2\n",
+                  "x.kernel:1:13: preset 'p' has 2 for 'a': 2 is outside its range: 0 to 1"},
+             Case{"float a;  /// = 1: m", "/// preset: p (s): b = 2\n",
+                  "x.kernel:1:13: preset 'p' sets 'b', but there is no such parameter"},
+             Case{"float a;  /// = 1: m", "/// preset: p (s): a = 2 3\n",
+                  "x.kernel:1:13: 'a' takes 1 number, got 2"},
+             Case{"float a;  /// = 1: m", "/// presets: classic\n",
+                  "x.kernel:1:5: the presets 'classic' need a parameter 'ka', a vec3 or a float"},
+             Case{"float a;  /// = 1: m", "/// rate: face\n",
+                  "x.kernel:1:5: only a shading model has a rate"},
+         }) {
+        INFO(member << " " << comment);
+        CHECK(problem_with(member, comment) == problem);
+    }
+}
+
+TEST_CASE("a parameter cannot have the name of a key that the scene's own table has") {
+    const auto problem_in = [](const std::string& text) -> std::string {
+        try {
+            static_cast<void>(model_in(text));
+            return "";
+        } catch (const kl::Problem& problem) {
+            return problem.text();
+        }
+    };
+    for (const std::string name : {"type", "name"}) {
+        CHECK(problem_in(
+                  "struct XLight { float " + name +
+                  "; };\nKERNEL vec3 x_illuminate_ambient(XLight m, Receiver r) { return vec3(1.0f); }\n") ==
+              "x.kernel:1:23: '" + name +
+                  "' is a key of [[light]] itself, so that a scene cannot set a parameter of that name; "
+                  "choose another");
+        CHECK(problem_with("float " + name + ";  /// = 1: m") == "");  // it is in [object.material]
+    }
+    CHECK(problem_in(
+              "struct XNormal { float model; };\nKERNEL vec3 x_normal(XNormal m, ShadingPoint p) { return "
+              "p.face_normal; }\n")
+              .starts_with("x.kernel:1:24: 'model' is a key of [shading] itself"));
 }
 
 TEST_CASE("what a model reads is found in its functions, and in those that they call") {
@@ -197,7 +271,21 @@ TEST_CASE("equations in TeX are printed as text") {
              std::pair{R"(\left(\frac{a}{b}\right)^{n - 1})", "(a / b)^(n - 1)"},
              std::pair{R"(\sqrt{\alpha^2 + 1} \le \pi, \quad x \times y)", "sqrt(alpha^2 + 1) <= pi,  x x y"},
              std::pair{R"(\lceil b \rceil \, \text{edge\_u})", "ceil(b) edge_u"},
-             std::pair{R"(\unknown{a} {b)", "unknowna b"},
          })
         CHECK(kl::plain_text(tex) == text);
+}
+
+TEST_CASE("mistakes in an equation are reported at their place") {
+    for (const auto& [tex, problem] : {
+             std::pair{R"(a \frc{1}{2})",
+                       R"(x.kernel:1:10: unknown command '\frc' in an equation; did you mean '\frac'?)"},
+             std::pair{R"(\unheard{a})", R"(x.kernel:1:8: unknown command '\unheard' in an equation)"},
+             std::pair{R"({a + b)", "x.kernel:1:8: this '{' is not closed"},
+             std::pair{R"(a + b})", "x.kernel:1:13: this '}' has no opening '{'"},
+             std::pair{R"(\frac{a})", "x.kernel:1:16: expected an argument"},
+         })
+        CHECK(problem_with("float a;  /// = 1: m", "/// $$ " + std::string(tex) + " $$\n") == problem);
+    // In an equation of several lines, too.
+    CHECK(problem_with("float a;  /// = 1: m", "/// $$ a +\n/// \\frc{1}{2} $$\n")
+              .starts_with("x.kernel:2:5: unknown command"));
 }

@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "conditions.h"
+#include "candela/kernel_language/declarations.h"
 #include "sandbox/temporary_folder.h"
 #include "scene_export/exported_program.h"
 #include "scene_export/scene_export.h"
@@ -98,7 +98,7 @@ void write_or_refuse(const Target& target, const Exported& exported, const std::
 /// The models that it declares to express exactly.
 std::vector<std::string> exact_models(PluginKind kind) {
     const std::string names = declared(fmt::format("exact-{}", candela::name_of(kind)));
-    return names.empty() ? std::vector<std::string>() : names_in(names);
+    return names.empty() ? std::vector<std::string>() : candela::kernel_language::property_names(names);
 }
 
 /// A light with its required parameters, as TOML.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -30,7 +31,7 @@ struct ParameterDeclaration {
     bool minimum_excluded = false;
     bool maximum_excluded = false;
     std::vector<std::string> choices{};
-    TextPosition place{};
+    TextPosition place{}, default_place{}, range_place{};
 };
 
 struct RelationDeclaration {
@@ -38,12 +39,19 @@ struct RelationDeclaration {
     std::string left{}, right{};
     bool only_warns = false;
     std::string meaning{};
+    TextPosition place{};
+};
+
+struct PropertyDeclaration {
+    std::string name{}, value = "true";
+    TextPosition place{};
 };
 
 struct PresetDeclaration {
     std::string name{}, source{};
     std::vector<std::pair<std::string, std::vector<float>>> values{};
     std::optional<std::vector<float>> color{};
+    TextPosition place{};
 };
 
 /// The members of the renderer's structs, by their names in prelude.kernel, that a model's kernel reads.
@@ -62,10 +70,12 @@ struct ModelDeclaration {
     std::string reference{};
     std::vector<ParameterDeclaration> parameters{};
     std::vector<RelationDeclaration> relations{};
-    std::vector<std::pair<std::string, std::string>> properties{};
+    std::vector<PropertyDeclaration> properties{};
     std::string preset_set{};  // "classic", "metals" or empty
+    TextPosition preset_set_place{};
     std::vector<PresetDeclaration> presets{};
-    std::string rate{};                 // of a shading model: "face", "vertex" or "fragment"
+    std::string rate{};  // of a shading model: "face", "vertex" or "fragment"
+    TextPosition rate_place{};
     std::set<std::string> functions{};  // "reflect", "reflect_ambient", "prepare" …
     std::string constants{};            // the type that prepare returns, if the kernel has it
     bool takes_triangle = false;
@@ -78,8 +88,19 @@ std::string model_name(const std::filesystem::path& file);
 /// The model that a checked kernel declares. Throws Problem at the comment that cannot be understood.
 ModelDeclaration read_model(const Kernel& kernel, std::string_view name);
 
+/// A part of an equation that is not understood: `offset` is that of the byte in its TeX.
+class EquationProblem : public std::runtime_error {
+  public:
+    EquationProblem(std::size_t offset, const std::string& message)
+        : std::runtime_error(message), offset_(offset) {}
+    std::size_t offset() const { return offset_; }
+
+  private:
+    std::size_t offset_;
+};
+
 /// An equation in TeX as plain text: "\frac{a}{b + c}" becomes "a / (b + c)", "N \cdot L" becomes "N.L".
-/// Unknown commands keep their names.
+/// Throws EquationProblem.
 std::string plain_text(std::string_view tex);
 
 /// The C++ of a plugin for the model, which includes `kernel_file`.
