@@ -88,6 +88,42 @@ TEST_CASE("the command suggested by new can be pasted into a shell") {
     expect(directory.run_words({"new", "it's a scene.toml"}), 0, {"candela render 'it'\\''s a scene.toml'"});
 }
 
+TEST_CASE("plugin new starts from kernel files, whose description is kept, and from models of three kinds") {
+    const Folder directory;
+    const std::string light =
+        "/// # Lamp\n/// A lamp, see lamp_at().\n///\n/// More about it.\n"
+        "struct LampLight {\n    vec3 position;  /// point in m: where it is\n};\n"
+        "const float lamp_power = 2.0f;\n"
+        "KERNEL float lamp_at(float x) { return lamp_power * x; }\n"
+        "KERNEL Incident lamp_illuminate(LampLight lamp, Receiver r) {\n"
+        "    return point_source(lamp.position, vec3(1.0f), lamp_at(1.0f), 2, 0.0f, r);\n}\n";
+    directory.write("lamp.kernel", light);
+    expect(directory.run("plugin new light lamp --from lamp.kernel"), 0);
+    CHECK(directory.read("lamp/lamp.kernel") == light);
+    expect(directory.run("plugin new light oil-lamp --from lamp.kernel"), 0);
+    CHECK(holds(directory.read("oil-lamp/oil-lamp.kernel"),
+                "/// # Lamp\n/// A lamp, see oil_lamp_at().\n///\n/// More about it.\n"));
+    CHECK(holds(directory.read("oil-lamp/oil-lamp.kernel"),
+                "oil_lamp_illuminate(OilLampLight lamp, Receiver r)"));
+    CHECK(holds(directory.read("oil-lamp/oil-lamp_test.cpp"),
+                "{{\"position\", candela::Vec3{1.0f, 1.0f, 1.0f}}}"));
+
+    // Prelude names that begin like the model's stay.
+    expect(directory.run("plugin new light mine --from light/point"), 0);
+    const std::string point = directory.read("mine/mine.kernel");
+    CHECK(holds(point, "/// # Mine\n/// Based on Point light: one sentence about it.\n"));
+    CHECK(holds(point, "KERNEL Incident mine_illuminate(MineLight"));
+    CHECK(holds(point, "point_source("));
+    expect(directory.run("plugin new shading smooth --from gouraud"), 0);
+    CHECK(holds(directory.read("smooth/smooth.kernel"), "KERNEL vec3 smooth_normal("));
+    expect(directory.run("plugin new shape ball --from sphere"), 2,
+           {"expected the kind light, reflection or shading"});
+    expect(directory.run("plugin new shading x --from lamp.kernel"), 2,
+           {"is a light model; expected a shading model"});
+    expect(directory.run("plugin new shading x --from light/point"), 2,
+           {"'light/point' is not a shading model"});
+}
+
 TEST_CASE("plugin new accepts a kernel in the kernel language, and locates the error in another") {
     const Folder directory;
     const std::string kernel =

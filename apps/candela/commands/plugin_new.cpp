@@ -53,8 +53,10 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
                      "CMakeLists.txt, test and README. KIND is light, reflection, shading, shape, image or "
                      "target. The project builds and passes its tests as it is.");
     line.positional("arguments", 3);
-    line.options()("from", po::value<std::string>()->value_name("MODEL"),
-                   "start from this reflection model's kernel and parameters instead of the template's")(
+    line.options()(
+        "from", po::value<std::string>()->value_name("MODEL"),
+        "start from the kernel and parameters of this light, reflection or shading model, or of this "
+        "kernel file, instead of the template's")(
         "kernel", po::value<std::string>()->value_name("FILE"),
         "with --from: use this kernel text instead of the model's own, as the page of candela view does");
     add_plugin_options(line);
@@ -64,7 +66,8 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
         throw Error(ErrorCategory::bad_request,
                     "candela plugin new needs a kind and a name, such as: reflection cel");
     const std::vector<std::string> kinds{"light", "reflection", "shading", "shape", "image", "target"};
-    if (std::ranges::find(kinds, words[0]) == kinds.end()) {
+    const auto kind = candela::plugin_kind_named(words[0]);
+    if (!kind) {
         const std::string meant = candela::suggestion(words[0], kinds);
         throw Error(ErrorCategory::bad_request,
                     fmt::format("there is no template for '{}'{} (kinds: {})", words[0],
@@ -73,9 +76,9 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
     if (line.has("kernel") && !line.has("from"))
         throw Error(ErrorCategory::bad_request,
                     "--kernel needs --from: the model whose parameters the text reads");
-    if (line.has("from") && words[0] != "reflection")
+    if (line.has("from") && kind > candela::PluginKind::shading)
         throw Error(ErrorCategory::bad_request,
-                    "--from starts from a reflection model; expected the kind reflection");
+                    "--from starts from a model's kernel; expected the kind light, reflection or shading");
     const ProjectNames names = project_names(words[1]);
     const fs::path target = words.size() > 2 ? words[2] : words[1];
     if (fs::exists(target) && !(fs::is_directory(target) && fs::is_empty(target)))
@@ -83,8 +86,12 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
     candela::Registry registry = registry_from(line);
     std::vector<candela::ExportedFile> files = template_files(words[0], names);
     if (line.has("from")) {
-        const candela::PluginFile& model = loaded_model(line.get<std::string>("from"), registry);
-        for (candela::ExportedFile& file : files_like(model, kernel_from(line, model), names)) {
+        const auto from = line.get<std::string>("from");
+        const candela::PluginFile& model = loaded_model(*kind, from, registry);
+        // The author of a kernel file has described it already; an installed model has another author.
+        const Description description =
+            candela::is_kernel_file(from) ? Description::of_the_kernel : Description::to_be_written;
+        for (candela::ExportedFile& file : files_like(model, kernel_from(line, model), names, description)) {
             std::erase_if(files, [&](const candela::ExportedFile& other) { return other.name == file.name; });
             files.push_back(std::move(file));
         }
@@ -92,8 +99,7 @@ int run_plugin_new(const std::vector<std::string>& arguments) {
     OutputFolder folder(target);
     for (const candela::ExportedFile& file : files) folder.write(file.name, file.content);
     folder.finish();
-    const auto kind = candela::plugin_kind_named(words[0]);
-    if (const auto* const hidden = kind ? registry.find(*kind, words[1]) : nullptr)
+    if (const auto* const hidden = registry.find(*kind, words[1]))
         warn(fmt::format(
             "a {} plugin '{}' already exists ({}); the new one hides it wherever it is found first", words[0],
             words[1], hidden->library.string()));

@@ -53,25 +53,23 @@ Error no_answer(const fs::path& file, const std::string& why) {
 
 }  // namespace
 
-const candela::PluginFile& loaded_model(const std::string& model, candela::Registry& registry) {
+const candela::PluginFile& loaded_model(candela::PluginKind kind, const std::string& model,
+                                        candela::Registry& registry) {
     const std::size_t slash = candela::is_kernel_file(model) ? std::string::npos : model.find('/');
-    const std::string kind = slash == std::string::npos ? "reflection" : model.substr(0, slash);
     const std::string name = slash == std::string::npos ? model : model.substr(slash + 1);
-    if (kind != "reflection") {
-        throw Error(ErrorCategory::bad_request, fmt::format("'{}' is not a reflection model", model));
+    if (slash != std::string::npos && model.substr(0, slash) != candela::name_of(kind)) {
+        throw Error(ErrorCategory::bad_request,
+                    fmt::format("'{}' is not a {} model", model, candela::name_of(kind)));
     }
-    const candela::PluginFile& file = registry.require(candela::PluginKind::reflection, name);
+    const candela::PluginFile& file = registry.require(kind, name);
     for (const candela::Parameter& parameter : file.manifest.parameters) {
         if (parameter.type == candela::ParamType::file && !parameter.default_value)
             throw Error(ErrorCategory::bad_request,
-                        fmt::format("reflection/{} needs a file ({}), which exercises cannot provide", name,
-                                    parameter.name));
+                        fmt::format("{} needs a file ({}), which its kernel alone cannot read",
+                                    file.manifest.id(), parameter.name));
     }
-    // Creating an instance loads the library.
-    static_cast<void>(registry.create<candela::ReflectionModel>(
-        name, registry.parameters(candela::PluginKind::reflection, name), candela::ColorEncoding::none));
-    if (file.descriptor == nullptr || file.descriptor->kernel.text == nullptr)
-        throw Error(ErrorCategory::bad_request, fmt::format("reflection/{} has no kernel text", name));
+    if (registry.descriptor(kind, name).kernel.text == nullptr)
+        throw Error(ErrorCategory::bad_request, fmt::format("{} has no kernel text", file.manifest.id()));
     return file;
 }
 
@@ -91,7 +89,7 @@ TextAroundBody text_around_body(const std::string& text, const std::string& func
 }
 
 Exercise exercise_about(const std::string& model, const std::string& function, candela::Registry& registry) {
-    const candela::PluginFile& file = loaded_model(model, registry);
+    const candela::PluginFile& file = loaded_model(candela::PluginKind::reflection, model, registry);
     const std::string text = kl::without_comments(file.descriptor->kernel.text);
     const std::string prefix = std::string(file.descriptor->kernel.prefix) + "_";
     const std::vector<std::string> names = functions_of(text);

@@ -27,9 +27,11 @@ struct Exercise {
     candela::kernel_language::Source kernel;      // the whole kernel, and its name in messages
 };
 
-/// The plugin of a reflection model ("reflection/phong", "phong"), loaded, with its kernel text. Throws
-/// candela::Error (bad_request) if `model` is not a reflection model.
-const candela::PluginFile& loaded_model(const std::string& model, candela::Registry& registry);
+/// The plugin of a model of that kind ("reflection/phong", "phong", or the path of a kernel file), loaded,
+/// with its kernel text, which does not depend on a file. Throws candela::Error (bad_request) if `model` is
+/// another.
+const candela::PluginFile& loaded_model(candela::PluginKind kind, const std::string& model,
+                                        candela::Registry& registry);
 
 /// The exercise about a model (reflection/phong) and a function of its kernel (reflect or phong_reflect).
 /// Throws candela::Error (bad_request), listing the possible functions, if there is no such exercise, or if

@@ -1,18 +1,24 @@
 #include "plugin_project/plugin_project.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
-#include <regex>
 #include <string_view>
+#include <utility>
+#include <variant>
 
+#include "candela/kernel_language/language.h"
 #include "programs/sibling_program.h"
 
 import candela.api;
 import candela.util;
 
 namespace fs = std::filesystem;
+namespace kl = candela::kernel_language;
 using candela::Error;
 using candela::ErrorCategory;
 using candela::ExportedFile;
@@ -39,14 +45,50 @@ std::string type_of(std::string_view words, char separator) {
     return type;
 }
 
-/// The kernel with its model's name replaced in all identifiers.
+std::string name_of(const kl::Declaration& declaration) {
+    if (const auto* const structure = std::get_if<kl::Structure>(&declaration)) return structure->name;
+    if (const auto* const function = std::get_if<kl::Function>(&declaration)) return function->name;
+    return std::get<kl::Constant>(declaration).declaration.name;
+}
+
+/// The names that the kernel declares and that begin with its model's, with the new one's instead.
+std::map<std::string, std::string, std::less<>> new_names(const std::string& kernel,
+                                                          const candela::PluginDescriptor& plugin,
+                                                          const ProjectNames& names) {
+    const std::string prefix = plugin.kernel.prefix;
+    const std::string type = type_of(prefix, '_');
+    std::map<std::string, std::string, std::less<>> renamed;
+    try {
+        for (const kl::Declaration& declaration :
+             kl::read_kernel({prefix + ".kernel", kernel}).declarations) {
+            const std::string name = name_of(declaration);
+            if (name.starts_with(prefix + "_"))
+                renamed[name] = names.ident + name.substr(prefix.size());
+            else if (name.starts_with(type))
+                renamed[name] = names.type + name.substr(type.size());
+        }
+    } catch (const kl::Problem& problem) {
+        throw Error(ErrorCategory::bad_request, problem.text());
+    }
+    return renamed;
+}
+
+/// The kernel with its model's name replaced in all identifiers, in comments too.
 std::string renamed(const std::string& kernel, const candela::PluginDescriptor& plugin,
                     const ProjectNames& names) {
-    const std::string prefix = plugin.kernel.prefix;
-    const std::string text =
-        std::regex_replace(kernel, std::regex(fmt::format(R"(\b{}_(?=\w))", prefix)), names.ident + "_");
-    return std::regex_replace(text, std::regex(fmt::format(R"(\b{}(?=[A-Z]\w*\b))", type_of(prefix, '_'))),
-                              names.type);
+    const auto replacements = new_names(kernel, plugin, names);
+    const auto is_part = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    };
+    std::string text;
+    for (auto at = kernel.begin(); at != kernel.end();) {
+        const auto end = is_part(*at) ? std::find_if_not(at, kernel.end(), is_part) : at + 1;
+        const std::string_view word(at, end);
+        const auto found = replacements.find(word);
+        text += found != replacements.end() ? found->second : word;
+        at = end;
+    }
+    return text;
 }
 
 /// The kernel under its new title, with the model that it comes from instead of a summary.
@@ -61,16 +103,64 @@ std::string retitled(std::string kernel, const std::string& title, const std::st
     return kernel;
 }
 
-std::string test_of(const ProjectNames& names) {
+/// A value in C++ that the parameter may have.
+std::string some_value(const candela::Parameter& p) {
+    using Type = candela::ParamType;
+    const float low = std::isfinite(p.minimum) ? p.minimum : std::isfinite(p.maximum) ? p.maximum - 2 : 0;
+    const float high = std::isfinite(p.maximum) ? p.maximum : low + 2;
+    const double middle = candela::shortest(low + (high - low) / 2);
+    const auto number = [&] { return candela::toml_text(middle, Type::real); };
+    switch (p.type) {
+        case Type::real:
+            return number();
+        case Type::integer:
+            return p.choices.empty() ? fmt::format("std::int64_t{{{:.0f}}}", std::floor(middle))
+                                     : p.choices.front();
+        case Type::boolean:
+            return "true";
+        case Type::choice:
+            return fmt::format("std::string(\"{}\")", p.choices.front());
+        case Type::text:
+        case Type::file:
+            return "std::string()";
+        case Type::color:
+            return "candela::Vec3{255, 255, 255}";
+        case Type::matrix:
+            return "candela::Matrix{1, 0, 0, 0, 1, 0, 0, 0, 1}";
+        case Type::numbers:
+            return fmt::format("candela::NumberList{{{}f}}", number());
+        default:
+            return fmt::format("candela::Vec3{{{0}f, {0}f, {0}f}}", number());
+    }
+}
+
+/// Values for the parameters that have no default: {{"position", candela::Vec3{1, 1, 1}}}.
+std::string required_values(const std::vector<candela::Parameter>& parameters) {
+    std::vector<std::string> values;
+    for (const candela::Parameter& each : parameters)
+        if (!each.default_value) values.push_back(fmt::format("{{\"{}\", {}}}", each.name, some_value(each)));
+    return fmt::format("{{{}}}", fmt::join(values, ", "));
+}
+
+std::string test_of(const candela::Manifest& model, const ProjectNames& names) {
+    if (model.kind != candela::PluginKind::reflection)
+        return fmt::format(
+            "#include <candela/plugin_test.h>\n\n#include <catch2/catch_test_macros.hpp>\n\n"
+            "TEST_CASE(\"it accepts these values\") {{\n"
+            "    const auto model = candela::sdk::make<candela::{}>(CANDELA_PLUGIN_DIR, \"{}\", {});\n"
+            "    // Check the values that you expect, from your paper or worked out by hand.\n"
+            "    CHECK(model != nullptr);\n}}\n",
+            model.kind == candela::PluginKind::light ? "Light" : "ShadingModel", names.name,
+            required_values(model.parameters));
     return fmt::format(
         "#include <candela/plugin_test.h>\n\n#include <catch2/catch_test_macros.hpp>\n#include <cmath>\n\n"
         "TEST_CASE(\"light from 60 degrees off the normal is reflected as finite, non-negative "
         "intensities\") {{\n"
-        "    const auto parts = candela::sdk::reflected(CANDELA_PLUGIN_DIR, \"{}\", {{}}, 0, 60);\n"
+        "    const auto parts = candela::sdk::reflected(CANDELA_PLUGIN_DIR, \"{}\", {}, 0, 60);\n"
         "    // Check the values that you expect, from your paper or worked out by hand.\n"
         "    for (const float part : {{parts.diffuse.x, parts.specular.x}}) {{\n"
         "        CHECK(std::isfinite(part));\n        CHECK(part >= 0);\n    }}\n}}\n",
-        names.name);
+        names.name, required_values(model.parameters));
 }
 
 }  // namespace
@@ -111,10 +201,12 @@ std::vector<ExportedFile> template_files(const std::string& kind, const ProjectN
 }
 
 std::vector<ExportedFile> files_like(const candela::PluginFile& model, const std::string& kernel,
-                                     const ProjectNames& names) {
+                                     const ProjectNames& names, Description description) {
     const candela::PluginDescriptor& plugin = *model.descriptor;
-    const std::string text = retitled(renamed(kernel, plugin, names), names.title,
-                                      fmt::format("Based on {}: one sentence about it.", plugin.title));
+    std::string text = renamed(kernel, plugin, names);
+    if (description == Description::to_be_written)
+        text = retitled(std::move(text), names.title,
+                        fmt::format("Based on {}: one sentence about it.", plugin.title));
     return {{names.name + ".kernel", text + (text.ends_with('\n') ? "" : "\n")},
-            {names.name + "_test.cpp", test_of(names)}};
+            {names.name + "_test.cpp", test_of(model.manifest, names)}};
 }

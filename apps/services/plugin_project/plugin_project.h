@@ -23,7 +23,11 @@ ProjectNames project_names(const std::string& name);
 /// The installed template of a kind, with the names filled in. Throws candela::Error (failure).
 std::vector<candela::ExportedFile> template_files(const std::string& kind, const ProjectNames& names);
 
+/// The title and the first sentence of a model that starts from another.
+enum class Description { of_the_kernel, to_be_written };
+
 /// The files of a model that differ from the template's: a kernel that declares what `model`'s does, with the
-/// text and the identifiers of the new model. `model` is loaded.
+/// text and the identifiers of the new model. `model` is loaded. Throws candela::Error (bad_request) if the
+/// text is not in the kernel language.
 std::vector<candela::ExportedFile> files_like(const candela::PluginFile& model, const std::string& kernel,
-                                              const ProjectNames& names);
+                                              const ProjectNames& names, Description description);
