@@ -134,6 +134,37 @@ TEST_CASE("a kernel file conforms like an installed plugin", "[kernel_files]") {
     CHECK(holds(result.out, "It conforms"));
 }
 
+TEST_CASE("the kit tells rounding at the flank of a highlight from a model that is not reciprocal",
+          "[kernel_files]") {
+    const Workspace place;
+    // Ashikhmin and Shirley's specular part as their paper has it: H.L one way is H.V the other, up to
+    // rounding.
+    const std::string paper = R"(/// properties: reciprocal
+struct PaperMaterial {
+    float exponent;  /// = 1000 [0, 10000]: of the highlight
+};
+
+KERNEL Reflected paper_reflect(PaperMaterial m, Surface s, vec3 to_light) {
+    vec3 h = normalize(to_light + SHARE * s.to_observer);
+    float n_dot_l = max(dot(s.normal, to_light), 0.0f);
+    float n_dot_v = max(dot(s.normal, s.to_observer), 1.0e-4f);
+    float lobe = (m.exponent + 1.0f) * clamped_power(dot(s.normal, h), m.exponent);
+    return Reflected(vec3(0.0f), vec3(n_dot_l * lobe / (max(dot(h, to_light), 1.0e-4f) * max(n_dot_l, n_dot_v))));
+}
+)";
+    const auto verdict_on = [&](const std::string& share) {
+        std::string text = paper;
+        write_file(place.directory / "paper.kernel", text.replace(text.find("SHARE"), 5, share));
+        return place.candela({"plugin", "test", "paper.kernel", "--check", "reciprocal"});
+    };
+    const CommandResult exact = verdict_on("1.0f"), uneven = verdict_on("1.0001f");
+    INFO(exact.out << uneven.out);
+    CHECK(exact.exit_code == 0);
+    CHECK(uneven.exit_code == 4);
+    CHECK(holds(uneven.out, "it is not reciprocal"));
+    CHECK(holds(uneven.out, "while rounding explains a difference of"));
+}
+
 TEST_CASE("mistakes in a kernel file are shown with its line and a mark", "[kernel_files]") {
     const Workspace place;
     std::string wrong = k_half;

@@ -75,6 +75,9 @@ TEST_CASE("kernel pow keeps zero and one exact, and stays out of the denormal ra
     for (const float exponent : {0.001f, 0.01f, 0.1f, 2.0f}) CHECK(k::clamped_power(-0.5f, exponent) == 0.0f);
     CHECK(std::abs(k::clamped_power(0.5f, 0.01f) - std::pow(0.5, 0.01)) < 1e-6);
     CHECK(k::clamped_power(-0.5f, 0.0f) == 1.0f);
+    // The least non-zero result leaves room for small factors before a product is denormal.
+    CHECK(k::clamped_power(0.9f, 400.0f) > 1e-19f);
+    CHECK(k::clamped_power(0.9f, 1000.0f) == 0.0f);
 }
 
 TEST_CASE("kernel angles agree with double precision") {
