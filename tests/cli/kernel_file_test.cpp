@@ -134,6 +134,37 @@ TEST_CASE("a kernel file conforms like an installed plugin", "[kernel_files]") {
     CHECK(holds(result.out, "It conforms"));
 }
 
+TEST_CASE("an exercise about a kernel file has its functions, and is graded where the file is",
+          "[kernel_files]") {
+    const Workspace place;
+    write_file(
+        place.directory / "plain.kernel",
+        "KERNEL float plain_share(float x) { return 0.5f * x; }\n"
+        "KERNEL Reflected plain_reflect(Surface s, vec3 to_light) {\n"
+        "    return Reflected(vec3(plain_share(max(dot(s.normal, to_light), 0.0f))), vec3(0.0f));\n}\n");
+    expect(
+        place.candela({"exercise", "new", "plain.kernel", "--blank", "reflect_ambient", "-o", "page.html"}),
+        2, {"has no function 'reflect_ambient'", "(possible: share, reflect)"});
+    CHECK(!fs::exists(place.directory / "page.html"));
+    succeeded(place.candela({"exercise", "new", "plain.kernel", "--blank", "share", "-o", "page.html"}));
+
+    write_file(
+        place.directory / "an.answer",
+        R"({"candela_exercise": 1, "model": "plain.kernel", "function": "plain_share", "answer": ["return x / 2.0;"]})");
+    const CommandResult here = place.candela({"exercise", "grade", "an.answer"});
+    INFO(here.out << here.err);
+    CHECK(here.exit_code == 0);
+    Workspace elsewhere = place;
+    elsewhere.directory /= "elsewhere";
+    fs::create_directory(elsewhere.directory);
+    const CommandResult there =
+        elsewhere.candela({"exercise", "grade", (place.directory / "an.answer").string()});
+    CHECK(there.exit_code == 4);
+    CHECK(holds(
+        there.out,
+        "'plain.kernel', which does not exist in this folder; run the command where the exercise was made"));
+}
+
 TEST_CASE("the kit tells rounding at the flank of a highlight from a model that is not reciprocal",
           "[kernel_files]") {
     const Workspace place;

@@ -132,6 +132,12 @@ class Grader {
             answer = answer_from(file);
             grade.model = answer->model;
             grade.function = answer->function;
+            if (candela::is_kernel_file(answer->model) && !fs::exists(answer->model))
+                throw Error(
+                    ErrorCategory::bad_request,
+                    fmt::format("it is about the kernel file '{}', which does not exist in this folder; run "
+                                "the command where the exercise was made",
+                                answer->model));
             exercise = exercise_about(answer->model, answer->function, registry_);
         } catch (const Error& problem) {
             grade.message = problem.what();

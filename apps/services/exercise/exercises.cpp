@@ -92,7 +92,10 @@ Exercise exercise_about(const std::string& model, const std::string& function, c
     const candela::PluginFile& file = loaded_model(candela::PluginKind::reflection, model, registry);
     const std::string text = kl::without_comments(file.descriptor->kernel.text);
     const std::string prefix = std::string(file.descriptor->kernel.prefix) + "_";
-    const std::vector<std::string> names = functions_of(text);
+    // The compiled kernel has an ambient part even if its file has none.
+    const auto written =
+        candela::is_kernel_file(model) ? candela::read_text_file(model, kl::k_longest_text) : std::nullopt;
+    const std::vector<std::string> names = functions_of(written.value_or(text));
     const auto is_defined = [&](const std::string& name) {
         return std::ranges::find(names, name) != names.end();
     };
