@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the pages of the shipped lights, reflection models and shading models: docs/models/*.md.
+"""Writes the pages of the shipped lights, reflection models and shading models, docs/models/*.md, and the tables of the kernels' prelude in
+docs/plugins/kernel-language.md.
 
     models.py CANDELA [--pictures [DIR]]    CANDELA is the built program; --pictures also draws docs/pictures/models/*, or to DIR
 
@@ -19,6 +20,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 PAGES = ROOT / "docs/models"
 PICTURES = ROOT / "docs/pictures/models"
+PRELUDE = ROOT / "core/include/candela/kernel/prelude.kernel"
+LANGUAGE_PAGE = ROOT / "docs/plugins/kernel-language.md"
 ENVIRONMENT = ROOT / "docs/examples/terrace.png"
 KINDS = {"light": "Lights", "reflection": "Reflection models", "shading": "Shading models", "shape": "Shapes", "image": "Picture formats",
          "target": "Targets"}
@@ -281,6 +284,35 @@ def texts(models):
     return {"README.md": index(models), **{f"{model.file}.md": page(model) for model in models}}
 
 
+def prelude_tables():
+    """The structs and functions that every kernel can use, as two tables."""
+    structs = ["| struct | member | |", "|---|---|---|"]
+    functions = ["| function | |", "|---|---|"]
+    comment, inside = [], False
+    for line in PRELUDE.read_text(encoding="utf-8").splitlines():
+        code, _, behind = (part.strip() for part in line.partition("//"))
+        if inside:
+            inside = code != "};"
+            if inside:
+                structs.append(f"| | `{code.rstrip(';')}` |" + (f" {cell(behind)}" if behind else "") + " |")
+        elif not code:
+            comment = [*comment, behind] if behind else []
+        elif code.startswith("struct "):
+            inside = True
+            structs.append(f"| `{code.split()[1]}` | | {cell(' '.join(comment))} |")
+        elif code.startswith("KERNEL "):
+            functions.append(f"| `{code.removeprefix('KERNEL ').rstrip(' {')}` | {cell(' '.join(comment))} |")
+    return "\n".join([*structs, "", *functions, ""])
+
+
+def language_page():
+    """The text of the page of the kernel language, with the prelude's tables."""
+    begin, end = "<!-- Written by scripts/models.py from candela/kernel/prelude.kernel: -->\n\n", "\n<!-- The end of the prelude. -->\n"
+    before, rest = LANGUAGE_PAGE.read_text(encoding="utf-8").split(begin)
+    after = rest.split(end)[1]
+    return before + begin + prelude_tables() + end + after
+
+
 def draw(candela, models, folder):
     """Draws the models' pictures to `folder`."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -305,6 +337,7 @@ def main():
     PAGES.mkdir(exist_ok=True)
     for name, text in texts(models).items():
         (PAGES / name).write_text(text, encoding="utf-8")
+    LANGUAGE_PAGE.write_text(language_page(), encoding="utf-8")
     if options.pictures:
         draw(options.candela.resolve(), models, options.pictures.resolve())
 

@@ -29,6 +29,14 @@ class Pages(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual((models.PAGES / name).read_text(encoding="utf-8"), text, AGAIN)
 
+    def test_the_page_of_the_language_has_the_whole_prelude(self):
+        text = models.LANGUAGE_PAGE.read_text(encoding="utf-8")
+        self.assertEqual(text, models.language_page(), AGAIN)
+        prelude = models.PRELUDE.read_text(encoding="utf-8")
+        for name in re.findall(r"^struct (\w+)|^KERNEL \w+ (\w+)\(", prelude, re.MULTILINE):
+            self.assertRegex(text, rf"\| `(\w+ )?{''.join(name)}[`(]")
+        self.assertIn("| | `vec3 to_observer` | V |", text)
+
     def test_every_kernel_says_when_to_choose_the_model(self):
         for model in SHIPPED:
             with self.subTest(model.file):
