@@ -132,11 +132,30 @@ class ModelReader {
             require_functions();
             return;
         }
-        throw Refusal{{},
-                      fmt::format("a model named '{}' needs a function {}_reflect (a reflection model), "
-                                  "{}_illuminate or {}_illuminate_ambient (a light) or {}_normal (a shading "
-                                  "model)",
-                                  model_.name, model_.prefix, model_.prefix, model_.prefix, model_.prefix)};
+        const std::string needed = fmt::format(
+            "a model named '{0}' needs a function {1}_reflect (a reflection model), {1}_illuminate or "
+            "{1}_illuminate_ambient (a light) or {1}_normal (a shading model)",
+            model_.name, model_.prefix);
+        for (const Declaration& declaration : kernel_.declarations) {
+            const auto* const function = std::get_if<Function>(&declaration);
+            if (function == nullptr) continue;
+            if (std::string other = model_of(function->name); !other.empty())
+                throw Refusal{function->name_place, fmt::format("{}; this is {}, of a model named '{}'",
+                                                                needed, function->name, other)};
+        }
+        throw Refusal{{}, needed};
+    }
+
+    /// The model that needs a function of that name: "as" for as_reflect; empty if none does.
+    static std::string model_of(std::string_view function) {
+        for (const KindFunctions& kind : all_kinds())
+            for (const std::string_view name : kind.first)
+                if (function.ends_with(fmt::format("_{}", name))) {
+                    std::string model(function.substr(0, function.size() - name.size() - 1));
+                    std::ranges::replace(model, '_', '-');
+                    return model;
+                }
+        return {};
     }
 
     void require_functions() const {

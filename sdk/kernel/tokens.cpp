@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <utility>
 
+#include "builtins.h"
 #include "candela/kernel_language/language.h"
 #include "candela/kernel_language/lexer.h"
 
@@ -25,6 +26,10 @@ class TokenChecker {
     TokenChecker(std::string_view text, std::uint8_t source) : text_(text), source_(source) {}
 
     std::vector<Token> tokens() {
+        if (text_.starts_with("\xef\xbb\xbf"))
+            refuse(0,
+                   "the text begins with a byte order mark, which shaders do not take; save it as UTF-8 "
+                   "without one");
         for (const Lexeme& lexeme : lexemes_of(text_)) add(lexeme);
         take(Token::Kind::end, {.text = {}, .offset = text_.size()});
         return std::move(tokens_);
@@ -89,6 +94,31 @@ class TokenChecker {
         refuse(at, fmt::format("the kernel language has no '{}'", printable(character)));
     }
 
+    /// A string is usually the argument of a function that does not exist either, which says more:
+    /// fopen("…").
+    [[noreturn]] void refuse_string(std::size_t at) const {
+        int open = 0;
+        for (std::size_t i = tokens_.size(); i-- > 1;) {
+            const std::string_view text = tokens_[i].text;
+            if (text == ";" || text == "{" || text == "}") break;
+            if (text == ")") --open;
+            if (text != "(" || ++open <= 0) continue;
+            const Token& called = tokens_[i - 1];
+            if (called.kind != Token::Kind::name || is_function(called.text)) break;
+            throw Refusal{called.place,
+                          fmt::format("unknown function '{}', and the kernel language has no strings",
+                                      shortened(called.text))};
+        }
+        refuse(at, "the kernel language has no strings");
+    }
+
+    /// Whether it is a function of the language, or one declared so far.
+    bool is_function(std::string_view name) const {
+        for (std::size_t i = 2; i < tokens_.size(); ++i)
+            if (tokens_[i].text == name && tokens_[i - 2].text == "KERNEL") return true;
+        return is_keyword(name) || builtin_functions().contains(name) || builtin_type(name);
+    }
+
     void sign(const Lexeme& sign) {
         const std::size_t at = sign.offset;
         const char c = text_[at];
@@ -98,7 +128,7 @@ class TokenChecker {
                 "?"
                 "?")
             refuse(at, "the kernel language has no preprocessor");
-        if (c == '"' || c == '\'') refuse(at, "the kernel language has no strings");
+        if (c == '"' || c == '\'') refuse_string(at);
         if (pair == "<:" || pair == ":>" || pair == "[[")
             refuse(at, "the kernel language has neither arrays nor attributes");
         if (pair == "<%" || pair == "%>") refuse(at, "write braces as { and }");

@@ -1,5 +1,6 @@
 // The declarations in a kernel file's comments: what they say of a model, and which of them are refused.
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/matchers/catch_matchers.hpp>
 #include <filesystem>
 #include <limits>
 #include <stdexcept>
@@ -238,7 +239,12 @@ TEST_CASE("the kind of a model follows from its functions") {
     CHECK(light.kind == candela::PluginKind::light);
     CHECK(light.reads.receiver.empty());
     CHECK(holds(kl::plugin_source(light, "x.kernel"), "distant_light("));
-    CHECK_THROWS_AS(model_in("KERNEL float other_reflect(Surface s) { return 1.0f; }\n"), kl::Problem);
+    CHECK_THROWS_WITH(
+        model_in("\nKERNEL float other_one_reflect(Surface s) { return 1.0f; }\n"),
+        "a model named 'x' needs a function x_reflect (a reflection model), x_illuminate or "
+        "x_illuminate_ambient (a light) "
+        "or x_normal (a shading model); this is other_one_reflect, of a model named 'other-one'");
+    CHECK_THROWS_AS(model_in("KERNEL float other(Surface s) { return 1.0f; }\n"), kl::Problem);
     CHECK_THROWS_AS(model_in("KERNEL Reflected x_reflect(Surface s, vec3 l) { return Reflected(l, l); }\n"),
                     kl::Problem);
 }
