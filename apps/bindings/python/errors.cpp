@@ -102,8 +102,7 @@ void add_errors(py::module_& module) {
         } catch (const KernelError& error) {
             // A text of the program, or a file that it names: a scene's are among its diagnostics.
             Diagnostics diagnostics;
-            diagnostics.remember_source(error.place().file, error.source());
-            diagnostics.error(error.place(), error.message());
+            error.report_in(diagnostics);
             raise("RequestError", error.what(), problems_of(diagnostics));
         } catch (const Error& error) {
             raise(type_of(error.category()), python_message(error), {});
