@@ -11,6 +11,7 @@
 #include "support/command.h"
 #include "support/expect.h"
 #include "support/folder.h"
+#include "support/sanitizers.h"
 #include "support/scene_tables.h"
 #include "support/text.h"
 
@@ -35,13 +36,6 @@ CommandResult check(const std::string& text, const std::vector<std::string>& mor
 CommandResult in_four_gigabytes(const std::string& arguments) {
     return run_program({"sh", "-c", "ulimit -v 4000000; exec " CANDELA_TEST_COMMAND " " + arguments});
 }
-
-constexpr bool k_has_shadow_memory =
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-    true;
-#else
-    false;
-#endif
 
 }  // namespace
 

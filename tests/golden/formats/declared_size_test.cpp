@@ -9,18 +9,12 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/sanitizers.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr bool k_has_shadow_memory =
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-    true;
-#else
-    false;
-#endif
 
 void put(std::string& bytes, std::uint32_t value, int count) {
     for (int i = 0; i < count; ++i) bytes += static_cast<char>(value >> 8 * i & 0xff);
