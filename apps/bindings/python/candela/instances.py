@@ -292,8 +292,8 @@ def reflection(name: str | os.PathLike[str], /, *, color_management: str = "srgb
 
 def light(name: str | os.PathLike[str], /, *, color_management: str = "srgb", registry: Registry | None = None,
           **values: Any) -> Light:
-    """A light by the name of its type, or by the path of its kernel file, with values as in a scene file: ``light("point", position=(0, 2, 0), intensity=20)``. Raises like
-    `reflection`."""
+    """A light by the name of its type, or by the path of its kernel file, with values as in a scene file:
+    ``light("point", position=(0, 2, 0), intensity=20)``. Raises like `reflection`."""
     registry = registry or default_registry()
     return Light(_candela.Light(registry.core, os.fspath(name), values, color_management), registry)
 
