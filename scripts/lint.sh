@@ -45,7 +45,7 @@ case "${1-}" in
 esac
 
 "$root/scripts/setup.sh"
-git ls-files -z '*.cpp' '*.cppm' '*.h' | xargs -0 clang-format-19 --dry-run --Werror
+git ls-files --cached --others --exclude-standard -z '*.cpp' '*.cppm' '*.h' | xargs -0 clang-format-19 --dry-run --Werror
 python3 -B "$root/scripts/prose.py"
 [ "$scope" != format ] || exit 0
 

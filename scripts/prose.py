@@ -62,7 +62,7 @@ def main(arguments) -> int:
         bad = [s for s in git("log", "--format=%s", f"{arguments[1]}..HEAD") if len(s) > 72 or s.endswith(".") or not is_imperative(s)]
         print("\n".join(f"prose: not an imperative of at most 72 characters: {s}" for s in bad) or "prose: clean")
         return 0
-    names = git("ls-files", "--", *(arguments or ["."]))
+    names = git("ls-files", "--cached", "--others", "--exclude-standard", "--", *(arguments or ["."]))
     count = 0
     for name in names:
         if EXCEPT.search(name) or Path(name).suffix not in SUFFIXES or not (ROOT / name).is_file():

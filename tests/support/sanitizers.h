@@ -1,4 +1,4 @@
-// What a test must know about the sanitizers that it may be built with.
+// Sanitizers: which one this program was built with, and what it changes for a test.
 #pragma once
 
 /// Whether this build reserves terabytes of address space, so that a test cannot limit it.
