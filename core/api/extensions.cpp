@@ -7,5 +7,6 @@ UniformAmbientSource::~UniformAmbientSource() = default;
 AllLightsReflection::~AllLightsReflection() = default;
 Environment::~Environment() = default;
 EnvironmentReflection::~EnvironmentReflection() = default;
+Rgb EnvironmentReflection::transmittance(const Rgb&, float) const { return {0, 0, 0}; }
 
 }  // namespace candela

@@ -33,10 +33,12 @@ boost::dll::shared_library loaded() {
     boost::dll::shared_library library(
         k_library, problem, boost::dll::load_mode::search_system_folders | boost::dll::load_mode::rtld_local);
     if (problem)
-        throw Error(ErrorCategory::failure,
-                    fmt::format("Embree follows rays within transparent objects, but {0} cannot be loaded "
-                                "(Debian's package libembree{1}-{1} has it): {2}",
-                                k_library, RTC_VERSION_MAJOR, problem.message()));
+        throw Error(
+            ErrorCategory::failure,
+            fmt::format(
+                "Embree follows rays to lights and within transparent objects, but {0} cannot be loaded "
+                "(Debian's package libembree{1}-{1} has it): {2}",
+                k_library, RTC_VERSION_MAJOR, problem.message()));
     return library;
 }
 
@@ -56,24 +58,52 @@ void Embree::commit(RTCScene scene) const {
                 [&](tbb::task_arena& alone) { alone.execute([&] { commit_scene(scene); }); });
 }
 
-void Embree::trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCFilterFunctionN filter,
-                   RTCRayHit16& rays) const {
+namespace {
+
 #if RTC_VERSION_MAJOR >= 4
-    RTCIntersectArguments arguments;
-    rtcInitIntersectArguments(&arguments);
-    arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-    if (filter != nullptr) {
-        arguments.flags =
-            static_cast<RTCRayQueryFlags>(arguments.flags | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
-        arguments.filter = filter;
-    }
-    intersect16(is_valid.data(), scene, &rays, &arguments);
+template <class Arguments>
+void set(Arguments& arguments, RTCFilterFunctionN filter, Embree::RayContext& context) {
+    rtcInitRayQueryContext(&context);
+    arguments.context = &context;
+    arguments.filter = filter;
+    constexpr unsigned k_coherent = RTC_RAY_QUERY_FLAG_COHERENT;
+    // NOLINTNEXTLINE(clang-analyzer-optin.core.EnumCastOutOfRange): they are bits
+    arguments.flags = static_cast<RTCRayQueryFlags>(
+        filter != nullptr ? k_coherent | RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER : k_coherent);
+}
 #else
-    RTCIntersectContext context;
+void set(Embree::RayContext& context, RTCFilterFunctionN filter) {
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     context.filter = filter;
+}
+#endif
+
+}  // namespace
+
+void Embree::trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCFilterFunctionN filter,
+                   RayContext& context, RTCRayHit16& rays) const {
+#if RTC_VERSION_MAJOR >= 4
+    RTCIntersectArguments arguments;
+    rtcInitIntersectArguments(&arguments);
+    set(arguments, filter, context);
+    intersect16(is_valid.data(), scene, &rays, &arguments);
+#else
+    set(context, filter);
     intersect16(is_valid.data(), scene, &context, &rays);
+#endif
+}
+
+void Embree::occluded(RTCScene scene, const std::array<int, k_packet_size>& is_valid,
+                      RTCFilterFunctionN filter, RayContext& context, RTCRay16& rays) const {
+#if RTC_VERSION_MAJOR >= 4
+    RTCOccludedArguments arguments;
+    rtcInitOccludedArguments(&arguments);
+    set(arguments, filter, context);
+    occluded16(is_valid.data(), scene, &rays, &arguments);
+#else
+    set(context, filter);
+    occluded16(is_valid.data(), scene, &context, &rays);
 #endif
 }
 

@@ -4,4 +4,5 @@ export module candela.geometry;
 export import :constraints;
 export import :containment;
 export import :mesh;
+export import :occlusion_tree;
 export import :triangle_tree;

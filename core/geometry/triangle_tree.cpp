@@ -261,7 +261,8 @@ void TriangleTree::Tree::trace(const Packet& packet, const Mask& is_valid, doubl
         rays.ray.mask[i] = ~0u;
         rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
     }
-    embree.trace(scene, valid, filter, rays);
+    Embree::RayContext context;
+    embree.trace(scene, valid, filter, context, rays);
     for (std::size_t i = 0; i < k_size; ++i) {
         const bool is_hit = valid[i] != 0 && rays.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
         exits.triangle[i] = is_hit ? rays.hit.primID[i] : 0;

@@ -99,6 +99,18 @@ struct PixelPositionLoop {
     }
 };
 
+/// The pixels in whose middle fragments are.
+struct PixelLoop {
+    CANDELA_BATCH_LOOP static void run(const float* x, const float* y, std::size_t count, std::uint32_t* to_x,
+                                       std::uint32_t* to_y) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            to_x[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(x[i]));
+            to_y[i] = static_cast<std::uint32_t>(static_cast<std::int32_t>(y[i]));
+        }
+    }
+};
+
 /// The bits in which triangles differ from the first one, vector by vector.
 struct DifferencesLoop {
     CANDELA_BATCH_LOOP static void run(const std::uint32_t* triangle, std::size_t count,
@@ -263,6 +275,11 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
         std::copy_n(from.z, points.filled, to.z);
     }
 
+    if (needs.pixel) {
+        const float* const x = positions.x.data();
+        const float* const y = positions.y.data();
+        multiversion<PixelLoop>(x, y, points.filled, points.pixel_x.data(), points.pixel_y.data());
+    }
     face_forward(points);
     needs.uv = false;
     if (source.mesh.closed && !needs.more()) return;

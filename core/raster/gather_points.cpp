@@ -14,7 +14,13 @@ namespace candela {
 
 namespace {
 
-/// For points that do not belong to a pixel.
+// For points that do not belong to a pixel.
+
+void clear_pixels(SurfacePoints& points) {
+    std::ranges::fill(points.pixel_x, 0u);
+    std::ranges::fill(points.pixel_y, 0u);
+}
+
 void clear_footprint(SurfacePoints& points) {
     for (AlignedVector<float>* const array : {&points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
         std::ranges::fill(*array, 0.0f);
@@ -42,6 +48,7 @@ void fill_up(PointNeeds needs, SurfacePoints& points) {
         fill(points.v);
     }
     if (needs.footprint) clear_footprint(points);
+    if (needs.pixel) clear_pixels(points);
     if (needs.derivatives) {
         fill_all(points.dpdu);
         fill_all(points.dpdv);

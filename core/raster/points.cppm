@@ -5,6 +5,7 @@ module;
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 export module candela.raster:points;
 
@@ -30,6 +31,7 @@ struct CANDELA_EXPORT SurfacePoints {
     Vec3Arrays barycentric;
     AlignedVector<float> facing;  // 1, or -1 where an open surface is seen from behind
     bool any_from_behind = false;
+    AlignedVector<std::uint32_t> pixel_x, pixel_y;  // filled if requested; zero where there is no pixel
     AlignedVector<float> u, v;                    // filled if requested and the mesh has them, otherwise zero
     AlignedVector<float> dudx, dvdx, dudy, dvdy;  // per pixel to the right and downwards; zero if unknown
     Vec3Arrays dpdu, dpdv;
@@ -47,6 +49,7 @@ struct PointNeeds {
     bool barycentric = true;
     bool color = true;  // of a mesh that has colours
     bool uv = false;
+    bool pixel = false;      // of fragments
     bool footprint = false;  // how uv change from pixel to pixel; with uv, at fragments
     bool derivatives = false;
     bool triangle = false;  // of fragments, faces and places; vertices have none

@@ -64,6 +64,7 @@ class SceneBuilder {
         tell();
         built_.observer = scene_.observer;
         built_.image = scene_.image;
+        built_.shadow_pattern = scene_.shadows.pattern;
         if (draft.is_complete) make_models();
         if (draft.is_complete) make_textures();
         if (draft.is_complete) make_environment();
@@ -84,6 +85,7 @@ class SceneBuilder {
                     count_step();
                 }
                 make_trees();
+                make_occlusion();
             },
             rough_milliseconds());
         if (diagnostics_.has_errors()) return std::nullopt;
@@ -325,6 +327,53 @@ class SceneBuilder {
                 without[i]->tree.emplace(mesh.position.span(), mesh.vertex_count(), mesh.indices);
             }
         });
+    }
+
+    bool has_shadows() const {
+        return scene_.shadows.enabled && std::ranges::any_of(scene_.lights, [](const LightSource& light) {
+                   return light.casts_shadows || light.ambient_occlusion.rays > 0;
+               });
+    }
+
+    bool is_transparent(std::size_t i) const {
+        const SurfaceModels& surface = built_.objects[i].surface;
+        return scene_.objects[i].transmits_light && surface.environment_reflection != nullptr &&
+               surface.environment_reflection->transmittance(Rgb{1, 1, 1}, 0) != Rgb{};
+    }
+
+    /// Whether the occluders are those of before.
+    bool is_occluded_as_before() const {
+        if (!has_kept_triangles() || !before_->built.occlusion) return false;
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
+            const Object &now = scene_.objects[i], &old = before_->scene.objects[i];
+            if (now.casts_shadows != old.casts_shadows || now.transmits_light != old.transmits_light ||
+                now.reflection != old.reflection)
+                return false;
+        }
+        return true;
+    }
+
+    void make_occlusion() {
+        for (std::size_t i = 0; i < built_.lights.size() && i < scene_.lights.size(); ++i) {
+            built_.lights[i].casts_shadows = scene_.lights[i].casts_shadows;
+            built_.lights[i].ambient_occlusion = scene_.lights[i].ambient_occlusion;
+        }
+        for (std::size_t i = 0; i < built_.objects.size(); ++i)
+            built_.objects[i].receives_shadows = scene_.objects[i].receives_shadows;
+        if (!has_shadows() || diagnostics_.has_errors()) return;
+        if (is_occluded_as_before()) {
+            built_.occlusion = std::move(before_->built.occlusion);
+            return;
+        }
+        std::vector<Occluder> occluders;
+        for (std::size_t i = 0; i < built_.objects.size(); ++i) {
+            const Mesh& mesh = built_.objects[i].mesh;
+            const Object& object = scene_.objects[i];
+            occluders.push_back({.mesh = object.casts_shadows ? &mesh : nullptr,
+                                 .is_solid = mesh.closed && !mesh.one_sided && !object.encloses,
+                                 .is_transparent = is_transparent(i)});
+        }
+        guarded("shadows", {}, [&] { built_.occlusion.emplace(occluders); });
     }
 
     void finish(std::size_t i) {

@@ -6,6 +6,7 @@ module;
 #include <cstdint>
 #include <span>
 #include <stdexcept>
+#include <vector>
 
 module candela.render;
 
@@ -15,6 +16,7 @@ import candela.api;
 import candela.geometry;
 import candela.raster;
 import candela.scene;
+import candela.shading;
 
 namespace candela {
 
@@ -27,13 +29,13 @@ class FragmentTracer {
   public:
     FragmentTracer(const RenderScene& scene, const ProjectedScene& projected)
         : scene_(scene), projected_(projected) {
-        shader_.begin({scene.lights, &scene.environment, projected.camera});
+        shader_.begin(lighting_context(scene, projected.camera, transmitters_));
     }
 
     InspectedFragment trace(std::uint32_t object, const FragmentRun& run, std::uint32_t triangle) {
         const RenderObject& solid = scene_.objects[object];
         const ProjectedMesh mesh{projected_, solid.mesh, projected_.first_vertex[object]};
-        PointNeeds needs = solid.surface.needs();
+        PointNeeds needs = needs_of(scene_, solid.surface);
         needs.face_normal = needs.vertex_normal = needs.barycentric = true;
         gather_fragments(mesh, {std::span(&run, 1), std::span(&triangle, 1)}, needs, points_);
         InspectedFragment fragment{.object = object,
@@ -44,14 +46,14 @@ class FragmentTracer {
                                    .rate = solid.surface.shading->shading_rate()};
         switch (fragment.rate) {
             case ShadingRate::fragment:
-                fragment.points.push_back(trace_point(solid));
+                fragment.points.push_back(trace_point(object));
                 break;
             case ShadingRate::face:
                 gather_faces(mesh, std::span(&triangle, 1), needs, points_);
-                fragment.points.push_back(trace_point(solid));
+                fragment.points.push_back(trace_point(object));
                 break;
             case ShadingRate::vertex:
-                trace_vertices(mesh, solid, triangle, fragment);
+                trace_vertices(mesh, object, triangle, fragment);
                 return fragment;
         }
         fragment.intensity = fragment.points[0].intensity;
@@ -59,19 +61,21 @@ class FragmentTracer {
     }
 
   private:
-    PointTrace trace_point(const RenderObject& solid) {
+    PointTrace trace_point(std::uint32_t object) {
+        const RenderObject& solid = scene_.objects[object];
         apply_texture(solid.surface, points_);
-        return shader_.trace(solid.surface, {&solid.mesh, solid.tree ? &*solid.tree : nullptr}, points_);
+        return shader_.trace(solid.surface, shaded_object(scene_, object), points_);
     }
 
-    void trace_vertices(const ProjectedMesh& mesh, const RenderObject& solid, std::uint32_t triangle,
+    void trace_vertices(const ProjectedMesh& mesh, std::uint32_t object, std::uint32_t triangle,
                         InspectedFragment& fragment) {
+        const RenderObject& solid = scene_.objects[object];
         const bool is_back = points_.facing[0] < 0;
         std::array<Vec3, 3> at_corner;
         for (std::size_t k = 0; k < 3; ++k) {
             const VertexSide side{solid.mesh.indices[3 * std::size_t{triangle} + k], is_back};
-            gather_vertices(mesh, std::span(&side, 1), solid.surface.needs(), points_);
-            fragment.points.push_back(trace_point(solid));
+            gather_vertices(mesh, std::span(&side, 1), needs_of(scene_, solid.surface), points_);
+            fragment.points.push_back(trace_point(object));
             at_corner[k] = fragment.points.back().intensity;
         }
         const Vec3 b = fragment.barycentric;
@@ -80,6 +84,7 @@ class FragmentTracer {
 
     const RenderScene& scene_;
     const ProjectedScene& projected_;
+    std::vector<Transmitter> transmitters_;
     SurfaceShader shader_;
     SurfacePoints points_;
 };

@@ -24,6 +24,7 @@ struct RenderObject {
     std::string label;
     Mesh mesh;
     SurfaceModels surface;
+    bool receives_shadows = true;
     std::optional<TriangleTree> tree{};  // of the mesh, if the reflection model shows its surroundings
 };
 
@@ -36,6 +37,8 @@ struct RenderScene {
     EnvironmentMap environment;  // visible where there is no object
     std::vector<RenderLight> lights;
     std::vector<RenderObject> objects;
+    std::optional<OcclusionTree> occlusion{};  // of the objects' meshes; empty: light is not blocked
+    ShadowPattern shadow_pattern = ShadowPattern::varied;
 };
 
 /// The observer's camera for a picture of that size.

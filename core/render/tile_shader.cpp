@@ -86,11 +86,42 @@ void TileShader::begin(const RenderScene& scene, const ProjectedScene& projected
     projected_ = &projected;
     term_ = term;
     has_background_ = shows_background(term, light);
-    const std::span<const RenderLight> lights = scene.lights;
-    surface_shader_.begin(light ? LightingContext{lights.subspan(*light, 1), nullptr, projected.camera}
-                                : LightingContext{lights, &scene.environment, projected.camera});
+    LightingContext context = lighting_context(scene, projected.camera, transmitters_);
+    if (light) {
+        context.lights = context.lights.subspan(*light, 1);
+        context.environment = nullptr;
+    }
+    surface_shader_.begin(context);
     points_lit_ = 0;
     brightest_ = 0;
+}
+
+LightingContext lighting_context(const RenderScene& scene, const Camera& camera,
+                                 std::vector<Transmitter>& transmitters) {
+    transmitters.clear();
+    for (const RenderObject& object : scene.objects)
+        transmitters.push_back({object.surface.environment_reflection, object.surface.color});
+    return {.lights = scene.lights,
+            .environment = &scene.environment,
+            .camera = camera,
+            .occlusion = scene.occlusion ? &*scene.occlusion : nullptr,
+            .pattern = scene.shadow_pattern,
+            .transmitters = transmitters};
+}
+
+ShadedObject shaded_object(const RenderScene& scene, std::uint32_t index) {
+    const RenderObject& object = scene.objects[index];
+    return {.mesh = &object.mesh,
+            .tree = object.tree ? &*object.tree : nullptr,
+            .index = index,
+            .receives_shadows = object.receives_shadows};
+}
+
+PointNeeds needs_of(const RenderScene& scene, const SurfaceModels& surface) {
+    PointNeeds needs = surface.needs();
+    needs.pixel = scene.occlusion.has_value();
+    needs.face_normal |= needs.pixel;
+    return needs;
 }
 
 bool shows_background(Term term, std::optional<std::size_t> light) {
@@ -155,12 +186,12 @@ ProjectedMesh TileShader::mesh_of(const FragmentList& fragments) const {
 
 void TileShader::shade_points(std::uint32_t object, const Vec3Span& intensity) {
     const RenderObject& solid = scene_->objects[object];
-    const Interior interior{&solid.mesh, solid.tree ? &*solid.tree : nullptr};
+    const ShadedObject shaded = shaded_object(*scene_, object);
     apply_texture(solid.surface, points_);
     if (term_ == Term::intensity) {
-        brightest_ = std::max(brightest_, surface_shader_.shade(solid.surface, interior, points_, intensity));
+        brightest_ = std::max(brightest_, surface_shader_.shade(solid.surface, shaded, points_, intensity));
     } else {
-        surface_shader_.find_term(term_, solid.surface, interior, points_, intensity);
+        surface_shader_.find_term(term_, solid.surface, shaded, points_, intensity);
     }
     points_lit_ += points_.count;
 }
@@ -171,7 +202,7 @@ void TileShader::accumulate(std::span<const FragmentRun> runs, const ConstVec3Sp
 
 void TileShader::shade_fragments(const FragmentList& fragments) {
     const ProjectedMesh mesh = mesh_of(fragments);
-    const PointNeeds needs = scene_->objects[fragments.object].surface.needs();
+    const PointNeeds needs = needs_of(*scene_, scene_->objects[fragments.object].surface);
     FragmentBatches batches(fragments);
     for (FragmentBatch batch = batches.next(); !batch.runs.empty(); batch = batches.next()) {
         gather_fragments(mesh, batch, needs, points_);
@@ -226,7 +257,7 @@ void TileShader::shade_faces(const FragmentList& fragments) {
     places_.resize(whole_vectors(triangles.size()));
     for (std::size_t first = 0; first < triangles.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, triangles.size() - first);
-        gather_faces(mesh, triangles.subspan(first, count), surface.needs(), points_);
+        gather_faces(mesh, triangles.subspan(first, count), needs_of(*scene_, surface), points_);
         shade_points(fragments.object, places_.span().from(first));
     }
     FragmentBatches batches(fragments);
@@ -253,7 +284,8 @@ void TileShader::shade_vertices(const FragmentList& fragments) {
     places_.resize(whole_vectors(vertices_.size()));
     for (std::size_t first = 0; first < vertices_.size(); first += k_batch_size) {
         const std::size_t count = std::min(k_batch_size, vertices_.size() - first);
-        gather_vertices(mesh, std::span(vertices_).subspan(first, count), surface.needs(), points_);
+        gather_vertices(mesh, std::span(vertices_).subspan(first, count), needs_of(*scene_, surface),
+                        points_);
         shade_points(fragments.object, places_.span().from(first));
     }
     const ConstVec3Span intensity = std::as_const(places_).span();

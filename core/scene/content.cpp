@@ -32,8 +32,8 @@ Observer fitted(Observer observer, int width, int height) {
 
 bool operator==(const Scene& a, const Scene& b) {
     return a.room == b.room && a.observer == b.observer && a.image == b.image &&
-           a.constraints == b.constraints && a.lights == b.lights && a.objects == b.objects &&
-           a.animation == b.animation;
+           a.constraints == b.constraints && a.shadows == b.shadows && a.lights == b.lights &&
+           a.objects == b.objects && a.animation == b.animation;
 }
 
 }  // namespace candela

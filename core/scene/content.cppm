@@ -42,6 +42,20 @@ struct ConstraintSettings {
     friend bool operator==(const ConstraintSettings&, const ConstraintSettings&) = default;
 };
 
+/// Where the samples of a light with an extent are.
+enum class ShadowPattern : int {
+    varied,  // different from pixel to pixel, so that a penumbra has no bands
+    fixed,   // the same everywhere
+};
+
+/// Whether light is blocked by objects (CA AS3: by default it is not).
+struct ShadowSettings {
+    bool enabled = false;
+    ShadowPattern pattern = ShadowPattern::varied;
+
+    friend bool operator==(const ShadowSettings&, const ShadowSettings&) = default;
+};
+
 struct Observer {
     Vec3 position;
     Vec3 look_at;
@@ -103,15 +117,26 @@ struct Label {
     }
 };
 
+/// How much of the ambient light of a point is blocked by what is near it.
+struct AmbientOcclusion {
+    int rays = 0;        // per point; 0: nothing is blocked
+    float distance = 1;  // metres; what is further away does not block
+
+    friend bool operator==(const AmbientOcclusion&, const AmbientOcclusion&) = default;
+};
+
 struct LightSource {
     Label label;
     Model model;
+    bool casts_shadows = true;
+    AmbientOcclusion ambient_occlusion{};  // of its ambient part
     SourceLocation place;
     SourceLocation position_place{};  // of its 'position', or of the whole light
 
     /// Ignores positions in the file.
     friend inline bool operator==(const LightSource& a, const LightSource& b) {
-        return a.label == b.label && a.model == b.model;
+        return a.label == b.label && a.model == b.model && a.casts_shadows == b.casts_shadows &&
+               a.ambient_occlusion == b.ambient_occlusion;
     }
 };
 
@@ -129,6 +154,9 @@ struct Object {
     std::string color_texture{};  // absolute path of a picture that multiplies `color`; empty: none
     TextureWrap color_texture_wrap = TextureWrap::repeat;
     bool encloses = false;  // others may be inside; drawn from both sides
+    bool casts_shadows = true;
+    bool receives_shadows = true;
+    bool transmits_light = true;  // if its reflection model is transparent
     Model shading;
     Model reflection;
     SourceLocation place;
@@ -139,7 +167,9 @@ struct Object {
     friend inline bool operator==(const Object& a, const Object& b) {
         return a.label == b.label && a.shape == b.shape && a.transform == b.transform && a.color == b.color &&
                a.color_texture == b.color_texture && a.color_texture_wrap == b.color_texture_wrap &&
-               a.encloses == b.encloses && a.shading == b.shading && a.reflection == b.reflection;
+               a.encloses == b.encloses && a.casts_shadows == b.casts_shadows &&
+               a.receives_shadows == b.receives_shadows && a.transmits_light == b.transmits_light &&
+               a.shading == b.shading && a.reflection == b.reflection;
     }
 };
 
@@ -150,6 +180,7 @@ struct Scene {
     Observer observer;
     ImageSettings image;
     ConstraintSettings constraints;
+    ShadowSettings shadows;
     std::vector<LightSource> lights;
     std::vector<Object> objects;
     std::optional<Animation> animation{};  // of which this is one frame

@@ -54,6 +54,7 @@ class Reader {
         read_observer();
         read_image();
         tables_.read(own_tables().constraints, scene_.constraints);
+        tables_.read(own_tables().shadows, scene_.shadows);
         each("light", [&](const TableNode& table, const SourceLocation& place, std::size_t i) {
             read_light(table, place, i);
         });

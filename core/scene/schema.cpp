@@ -93,6 +93,18 @@ Table<ConstraintSettings> constraints() {
                     &ConstraintSettings::overlap)}};
 }
 
+Table<ShadowSettings> shadows() {
+    return {{.name = "shadows",
+             .title = "[shadows]",
+             .meaning = "light that objects block; optional, without it none is (docs/user/shadows.md)"},
+            {field(Type::boolean, "enabled", "whether objects block light", &ShadowSettings::enabled),
+             choice({"varied", "fixed"}, "pattern",
+                    "where the samples of a light with an extent are: varied from pixel to pixel, so that "
+                    "penumbras are smooth, or fixed, so that they have as many steps as samples",
+                    &ShadowSettings::pattern)
+                 .omitted_by_default()}};
+}
+
 Table<Model> shading() {
     return {{.name = "shading",
              .title = "[shading]",
@@ -118,7 +130,21 @@ Table<LightSource> light() {
          .plugins = {{"type", PluginKind::light, ""}}},
         {field(Type::text, "name", k_name, &LightSource::label, &Label::name).omitted_by_default(),
          field(Type::text, "type", "light plugin; its parameters follow", &LightSource::model, &Model::name)
-             .required()}};
+             .required(),
+         field(Type::boolean, "casts_shadows", "whether objects block this light; only with [shadows]",
+               &LightSource::casts_shadows)
+             .omitted_by_default(),
+         field(Type::integer, "ambient_occlusion_rays",
+               "rays per point that find out how much of the light's ambient part is blocked; 0: none of "
+               "it; only with [shadows]",
+               &LightSource::ambient_occlusion, &AmbientOcclusion::rays)
+             .range(0, 1024)
+             .omitted_by_default(),
+         field(Type::real, "ambient_occlusion_distance", "how near an object must be to block ambient light",
+               &LightSource::ambient_occlusion, &AmbientOcclusion::distance)
+             .unit("m")
+             .above(0)
+             .omitted_by_default()}};
 }
 
 Table<Object> object() {
@@ -155,6 +181,17 @@ Table<Object> object() {
                "whether lights, the observer and other objects may be inside, as in a room or a lampshade; "
                "the object is then drawn from both sides",
                &Object::encloses),
+         field(Type::boolean, "casts_shadows", "whether the object blocks light; only with [shadows]",
+               &Object::casts_shadows)
+             .omitted_by_default(),
+         field(Type::boolean, "receives_shadows",
+               "whether objects block the light on this one; only with [shadows]", &Object::receives_shadows)
+             .omitted_by_default(),
+         field(Type::boolean, "transmits_light",
+               "whether light passes through the object if its reflection model is transparent: straight "
+               "on, and coloured by it; otherwise it blocks light; only with [shadows]",
+               &Object::transmits_light)
+             .omitted_by_default(),
          field(Type::text, "shading", "shading plugin; overrides [shading]", &Object::shading, &Model::name),
          field(Type::text, "reflection", "reflection plugin; overrides [reflection]", &Object::reflection,
                &Model::name)}};
@@ -208,6 +245,7 @@ const OwnTables& own_tables() {
                                     .observer = observer(),
                                     .image = image(),
                                     .constraints = constraints(),
+                                    .shadows = shadows(),
                                     .shading = shading(),
                                     .reflection = reflection(),
                                     .light = light(),
@@ -238,9 +276,9 @@ const TableSchema& top_schema() {
 std::span<const TableSchema> scene_schema() {
     static const OwnTables& own = own_tables();
     static const std::array k_tables = {
-        own.room.about(),        own.observer.about(), own.image.about(),
-        own.constraints.about(), own.shading.about(),  own.reflection.about(),
-        own.light.about(),       own.object.about(),   own.animation.about(),
+        own.room.about(),    own.observer.about(),  own.image.about(),      own.constraints.about(),
+        own.shadows.about(), own.shading.about(),   own.reflection.about(), own.light.about(),
+        own.object.about(),  own.animation.about(),
     };
     return k_tables;
 }

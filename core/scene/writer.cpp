@@ -59,6 +59,7 @@ class Writer {
         write(own_tables().observer, scene.observer);
         write(own_tables().image, scene.image);
         write(own_tables().constraints, scene.constraints);
+        if (scene.shadows != ShadowSettings{}) write(own_tables().shadows, scene.shadows);
         if (scene.animation) write_animation(*scene.animation);
         if (!scene.objects.empty()) {
             shading_ = shared_shading(scene.objects);

@@ -27,15 +27,15 @@ void ObjectEnvironment::leave_batch(std::size_t count, const ConstVec3Span& orig
     triangles_.assign(count, 0);
     barycentric_.resize(k_batch_size);
     normal_.resize(k_batch_size);
-    if (interior_.tree != nullptr) {
-        interior_.tree->find_exits(count, origin, direction,
-                                   {triangles_.data(), exit.distance, barycentric_.span()});
+    if (object_.tree != nullptr) {
+        object_.tree->find_exits(count, origin, direction,
+                                 {triangles_.data(), exit.distance, barycentric_.span()});
     } else {
         std::fill_n(exit.distance, count, -1.0f);
     }
     PointNeeds needs = surface_->needs();
     needs.color = needs.footprint = false;
-    gather_places(*interior_.mesh, triangles_, std::as_const(barycentric_).span(), needs, points_);
+    gather_places(*object_.mesh, triangles_, std::as_const(barycentric_).span(), needs, points_);
     // Into an array with room for a whole batch, as everywhere: not all plugins respect the end of their
     // batch.
     shading_normals(*surface_, points_, normal_.span());

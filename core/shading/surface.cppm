@@ -2,6 +2,7 @@ module;
 
 #include "candela/plugin/export.h"
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -32,6 +33,12 @@ struct RenderLight {
     std::unique_ptr<Light> light;
     bool has_ambient = false;
     std::optional<LightData> data{};  // empty: only the light itself knows
+    // Effective in a LightingContext with an OcclusionTree.
+    bool casts_shadows = true;
+    AmbientOcclusion ambient_occlusion{};
+
+    /// Whether a sample is more than a point, so that its light has penumbras.
+    bool has_extent() const;
 };
 
 /// Creates the light, and asks it once whether it is data. Throws Error, naming the plugin.
@@ -48,6 +55,7 @@ struct CANDELA_EXPORT SurfaceModels {
     std::string reflection_plugin;
     std::unique_ptr<ReflectionModel> reflection;
     SurfaceNeeds reflection_needs{};
+    bool lights_below_horizon = false;  // the model reflects light that the normal faces away from
     // The extensions that `reflection` offers.
     const AllLightsReflection* all_lights_reflection = nullptr;
     const EnvironmentReflection* environment_reflection = nullptr;
@@ -59,11 +67,19 @@ struct CANDELA_EXPORT SurfaceModels {
     PointNeeds needs() const;
 };
 
-/// The inside of an object, for a transparent model.
-struct Interior {
+/// The object whose surface is shaded.
+struct ShadedObject {
     const Mesh* mesh = nullptr;
-    const TriangleTree* tree =
-        nullptr;  // of that mesh; null: light that enters does not meet the object again
+    /// Of that mesh, for a transparent model; null: light that enters does not meet the object again.
+    const TriangleTree* tree = nullptr;
+    std::uint32_t index = 0;  // among the scene's
+    bool receives_shadows = true;
+};
+
+/// A surface that light passes through: a transparent model, and the object's colour.
+struct Transmitter {
+    const EnvironmentReflection* model = nullptr;
+    Rgb color{};
 };
 
 /// The lights of a scene, and the view of it.
@@ -71,6 +87,10 @@ struct LightingContext {
     std::span<const RenderLight> lights;
     const EnvironmentMap* environment = nullptr;  // null: transparent objects show no surroundings
     Camera camera;
+    // Shadows.
+    const OcclusionTree* occlusion = nullptr;  // of all objects; null: light is not blocked
+    ShadowPattern pattern = ShadowPattern::varied;
+    std::span<const Transmitter> transmitters{};  // by object; those that are not transparent have no model
 };
 
 }  // namespace candela

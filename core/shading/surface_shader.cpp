@@ -13,16 +13,19 @@ module;
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 module candela.shading;
 
 import :guarded;
+import :light_visibility;
 import :object_environment;
 import candela.api;
 import candela.plugins;
@@ -96,6 +99,63 @@ struct SumLoop {
     }
 };
 
+/// A light that is data, at each point. `offset`: where in its extent.
+struct PunctualLoop {
+    CANDELA_BATCH_LOOP static void run(PunctualLight light, ConstVec3Span position, ConstVec3Span normal,
+                                       ConstVec2Span offset, std::size_t count, Vec3Span to_light,
+                                       float* distance, float* attenuation) {
+        const vec3 source(light.position.x, light.position.y, light.position.z);
+        const vec3 u(light.extent_u.x, light.extent_u.y, light.extent_u.z);
+        const vec3 v(light.extent_v.x, light.extent_v.y, light.extent_v.z);
+        const vec3 axis(light.axis.x, light.axis.y, light.axis.z);
+        const bool is_distant = light.w == 0.0f;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const vec3 at = source + u * offset.x[i] + v * offset.y[i];
+            const vec3 to_source = at - kernel::load(position, i) * light.w;
+            const float square = kernel::dot(to_source, to_source);
+            const float inverse = kernel::inversesqrt(kernel::max(square, 1.0e-36f));
+            const vec3 l = square > 1.0e-36f ? to_source * inverse : kernel::load(normal, i);
+            const float r = kernel::max(square * inverse, 1.0e-4f);
+            const float cosine = -kernel::dot(l, axis);
+            const float t = kernel::clamp((cosine - light.cos_outer) * light.cone_scale, 0.0f, 1.0f);
+            const float smooth = t * t * (3.0f - 2.0f * t);
+            const float cone = light.has_cone ? (light.is_smooth ? smooth : t) : 1.0f;
+            kernel::store(to_light, i, l);
+            distance[i] = is_distant ? std::numeric_limits<float>::infinity() : r;
+            attenuation[i] = cone / (light.constant + r * (light.linear + r * light.quadratic));
+        }
+    }
+};
+
+struct IntensityLoop {
+    CANDELA_BATCH_LOOP static void run(Rgb intensity, const float* attenuation, std::size_t count,
+                                       Vec3Span to) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i)
+            kernel::store(to, i, vec3(intensity.r, intensity.g, intensity.b) * attenuation[i]);
+    }
+};
+
+/// A number that is zero where there is no light.
+struct BrightnessLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span a, ConstVec3Span b, std::size_t count, float* to) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const vec3 sum = kernel::load(a, i) + kernel::load(b, i);
+            to[i] = sum.x + sum.y + sum.z;
+        }
+    }
+};
+
+struct ProductLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span by, std::size_t count, Vec3Span v) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i)
+            kernel::store(v, i, kernel::load(ConstVec3Span(v), i) * kernel::load(by, i));
+    }
+};
+
 template <std::size_t terms>
 float add(const std::array<ConstVec3Span, terms>& of, std::size_t count, const Vec3Span& sum) {
     std::int32_t bits = 0;
@@ -124,6 +184,11 @@ std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
     return surface.environment_reflection != nullptr ? points.count : points.filled;
 }
 
+/// Whether a sample of a light is more than a point.
+bool is_extended(const PunctualLight& sample) {
+    return sample.extent_u != Vec3{} || sample.extent_v != Vec3{};
+}
+
 /// Empty if the light does not describe itself.
 std::optional<LightData> data_of(const Light& light, bool has_ambient) {
     const int samples = light.sample_count();
@@ -137,6 +202,8 @@ std::optional<LightData> data_of(const Light& light, bool has_ambient) {
 }
 
 }  // namespace
+
+bool RenderLight::has_extent() const { return data && std::ranges::any_of(data->samples, is_extended); }
 
 RenderLight render_light(Registry& registry, const Model& model, ColorEncoding encoding) {
     RenderLight made{.plugin = model.name,
@@ -155,7 +222,11 @@ void SurfaceModels::set_shading(Registry& registry, const Model& model, ColorEnc
 void SurfaceModels::set_reflection(Registry& registry, const Model& model, ColorEncoding encoding) {
     reflection = registry.create<ReflectionModel>(model.name, model.parameters, encoding);
     reflection_plugin = model.name;
-    reflection_needs = registry.descriptor(PluginKind::reflection, model.name).surface_needs;
+    const PluginDescriptor& descriptor = registry.descriptor(PluginKind::reflection, model.name);
+    reflection_needs = descriptor.surface_needs;
+    lights_below_horizon = std::ranges::any_of(descriptor.properties, [](const Property& property) {
+        return std::string_view(property.name) == "lights-below-horizon";
+    });
     all_lights_reflection = extension_of<AllLightsReflection>(*reflection);
     environment_reflection = extension_of<EnvironmentReflection>(*reflection);
 }
@@ -206,7 +277,10 @@ void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, 
     surface.shading->normals(batch, normal);
 }
 
-SurfaceShader::SurfaceShader() {
+SurfaceShader::SurfaceShader() : visibility_(std::make_unique<LightVisibility>()) {
+    for (AlignedVector<float>* const array : {&distance_, &attenuation_})
+        array->resize(k_batch_size + k_guard_size);
+    zeros_.resize(k_batch_size);
     for (Vec3Arrays* const arrays : {&to_observer_, &tangent_}) arrays->resize(k_batch_size);
     for (Vec3Arrays* const arrays : written_by_plugins()) arrays->resize(k_batch_size + k_guard_size);
     mark_ends();
@@ -216,19 +290,26 @@ SurfaceShader::~SurfaceShader() = default;
 
 void SurfaceShader::begin(const LightingContext& scene) {
     scene_ = scene;
+    visibility_->begin(scene);
     surroundings_.reset();
     lights_.clear();
     other_lights_.clear();
     punctual_lights_.clear();
     lighting_ = {};
+    is_blocked_.clear();
+    const bool has_shadows = scene.occlusion != nullptr;
     for (const RenderLight& source : scene.lights) {
         lights_.push_back(&source);
-        if (!source.data) {
+        const bool varies = scene.pattern == ShadowPattern::varied && source.has_extent();
+        const bool is_one_by_one =
+            has_shadows && ((source.casts_shadows && varies) || source.ambient_occlusion.rays > 0);
+        if (!source.data || is_one_by_one) {
             other_lights_.push_back(&source);
             continue;
         }
         punctual_lights_.insert(punctual_lights_.end(), source.data->samples.begin(),
                                 source.data->samples.end());
+        is_blocked_.resize(punctual_lights_.size(), has_shadows && source.casts_shadows);
         lighting_.ambient = lighting_.ambient + source.data->ambient;
     }
     lighting_.lights = punctual_lights_;
@@ -280,10 +361,11 @@ void SurfaceShader::find_normals(const SurfaceModels& surface, const SurfacePoin
         multiversion<FaceForwardLoop>(points.facing.data(), points.filled, normal_.span());
 }
 
-float SurfaceShader::shade(const SurfaceModels& surface, const Interior& interior,
+float SurfaceShader::shade(const SurfaceModels& surface, const ShadedObject& object,
                            const SurfacePoints& points, const Vec3Span& intensity) {
     const std::size_t count = lit_of(surface, points);
     find_normals(surface, points);
+    has_shadows_ = visibility_->set_points(surface, object, points, std::as_const(normal_).span());
     const ConstVec3Span ambient = std::as_const(ambient_).span(), diffuse = std::as_const(diffuse_).span(),
                         specular = std::as_const(specular_).span(),
                         reflected = std::as_const(reflected_).span();
@@ -292,26 +374,26 @@ float SurfaceShader::shade(const SurfaceModels& surface, const Interior& interio
     const std::array all = written_by_plugins();
     std::span<Vec3Arrays* const> written = all;
     if (!reflect_all_lights(surface, points)) {
-        add_up(surface, interior, points, lights_, Checking::none);
+        add_up(surface, object, points, lights_, Checking::none);
         largest = add<3>({ambient, diffuse, specular}, count, intensity);
     } else if (other_lights_.empty()) {
         largest = add<1>({reflected}, count, intensity);
         written = in_one_go;
     } else {
-        add_up(surface, interior, points, other_lights_, Checking::none);
+        add_up(surface, object, points, other_lights_, Checking::none);
         largest = add<4>({reflected, ambient, diffuse, specular}, count, intensity);
     }
-    if (!std::isfinite(largest) || !are_ends_intact(written)) check_steps(surface, interior, points);
+    if (!std::isfinite(largest) || !are_ends_intact(written)) check_steps(surface, object, points);
     return largest;
 }
 
-void SurfaceShader::check_steps(const SurfaceModels& surface, const Interior& interior,
+void SurfaceShader::check_steps(const SurfaceModels& surface, const ShadedObject& object,
                                 const SurfacePoints& points) {
     mark_ends();
     find_normals(surface, points);
     const std::size_t count = lit_of(surface, points);
     require_sound(PluginKind::shading, surface.shading_plugin, count, {&normal_});
-    add_up(surface, interior, points, lights_, Checking::each_step);
+    add_up(surface, object, points, lights_, Checking::each_step);
     if (reflect_all_lights(surface, points))
         require_sound(PluginKind::reflection, surface.reflection_plugin, count, {&reflected_});
 }
@@ -320,12 +402,89 @@ bool SurfaceShader::reflect_all_lights(const SurfaceModels& surface, const Surfa
     if (other_lights_.size() == lights_.size() || surface.all_lights_reflection == nullptr ||
         surface.environment_reflection != nullptr)
         return false;
+    // Weights have no colour.
+    if (has_shadows_ && scene_.occlusion->has_transparent()) return false;
     const std::size_t count = lit_of(surface, points);
     find_tangents(surface, points, count);
+    PunctualLighting lighting = lighting_;
+    if (has_shadows_) lighting.visibility = visibility_of_data(points);
     SurfaceBatch batch = lit_surface(surface, points, count);
     batch.to_observer = {};
     guarded(PluginKind::reflection, surface.reflection_plugin,
-            [&] { surface.all_lights_reflection->reflect_all_lights(batch, lighting_, reflected_.span()); });
+            [&] { surface.all_lights_reflection->reflect_all_lights(batch, lighting, reflected_.span()); });
+    return true;
+}
+
+std::span<const float* const> SurfaceShader::visibility_of_data(const SurfacePoints& points) {
+    const std::size_t lights = punctual_lights_.size();
+    weights_.resize((lights + 1) * k_batch_size);
+    weight_pointers_.resize(lights);
+    float* const everywhere = &weights_[lights * k_batch_size];
+    std::fill_n(everywhere, points.filled, 1.0f);
+    for (std::size_t k = 0; k < lights; ++k) {
+        if (!is_blocked_[k]) {
+            weight_pointers_[k] = everywhere;
+            continue;
+        }
+        const ConstVec3Span left = visibility_->find(light_at(punctual_lights_[k], 0, points));
+        float* const weights = &weights_[k * k_batch_size];
+        std::copy_n(left.x, points.filled, weights);
+        weight_pointers_[k] = weights;
+    }
+    return weight_pointers_;
+}
+
+LightSample SurfaceShader::light_at(const PunctualLight& light, int sample, const SurfacePoints& points) {
+    const ConstVec2Span offset = is_extended(light) ? visibility_->sample_offsets(sample)
+                                                    : ConstVec2Span{zeros_.data(), zeros_.data()};
+    multiversion<PunctualLoop>(light, points.position.span(), std::as_const(normal_).span(), offset,
+                               points.filled, to_light_.span(), distance_.data(), attenuation_.data());
+    return {std::as_const(to_light_).span(), distance_.data(), attenuation_.data()};
+}
+
+std::optional<LightSample> SurfaceShader::illuminate(const RenderLight& source, int sample,
+                                                     const SurfacePoints& points, std::size_t count) {
+    const Vec3Span to_light = to_light_.span(), diffuse = light_diffuse_.span(),
+                   specular = light_specular_.span();
+    const bool is_blocked = has_shadows_ && source.casts_shadows;
+    if (is_blocked && source.data) {
+        const PunctualLight& light = source.data->samples[static_cast<std::size_t>(sample)];
+        const LightSample at = light_at(light, sample, points);
+        multiversion<IntensityLoop>(light.diffuse, at.brightness, count, diffuse);
+        multiversion<IntensityLoop>(light.specular, at.brightness, count, specular);
+        return at;
+    }
+    if (is_blocked) std::fill_n(distance_.begin(), points.filled, std::numeric_limits<float>::infinity());
+    guarded(PluginKind::light, source.plugin, [&] {
+        source.light->illuminate(
+            sample,
+            {.count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()},
+            {to_light, diffuse, specular, is_blocked ? distance_.data() : nullptr});
+    });
+    if (!is_blocked) return std::nullopt;
+    multiversion<BrightnessLoop>(ConstVec3Span(diffuse), ConstVec3Span(specular), count, attenuation_.data());
+    return LightSample{std::as_const(to_light_).span(), distance_.data(), attenuation_.data()};
+}
+
+void SurfaceShader::block(const LightSample& light, std::size_t count) {
+    const ConstVec3Span left = visibility_->find(light);
+    multiversion<ProductLoop>(left, count, light_diffuse_.span());
+    multiversion<ProductLoop>(left, count, light_specular_.span());
+}
+
+void SurfaceShader::illuminate_ambient(const RenderLight& source, const SurfacePoints& points,
+                                       std::size_t count) {
+    guarded(PluginKind::light, source.plugin, [&] {
+        source.light->illuminate_ambient(
+            {.count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()},
+            light_diffuse_.span());
+    });
+}
+
+bool SurfaceShader::block_ambient(const RenderLight& source, std::size_t count) {
+    if (!has_shadows_ || source.ambient_occlusion.rays == 0) return false;
+    const ConstVec3Span free = visibility_->find_ambient(source.ambient_occlusion);
+    multiversion<ProductLoop>(free, count, light_diffuse_.span());
     return true;
 }
 
@@ -348,7 +507,7 @@ SurfaceBatch SurfaceShader::lit_surface(const SurfaceModels& surface, const Surf
             .point_color = points.has_color ? points.color.span() : ConstVec3Span{}};
 }
 
-void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interior,
+void SurfaceShader::add_up(const SurfaceModels& surface, const ShadedObject& object,
                            const SurfacePoints& points, const Lights& lights, Checking checking) {
     const std::size_t count = lit_of(surface, points);
     const auto look_at = [&](PluginKind kind, const std::string& plugin,
@@ -357,8 +516,6 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
     };
     multiversion<ToObserverLoop>(scene_.camera, points.position.span(), count, to_observer_.span());
     find_tangents(surface, points, count);
-    const ReceiverBatch receivers{
-        .count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()};
     const SurfaceBatch batch = lit_surface(surface, points, count);
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
     for (const Vec3Span& sum : {reflected.ambient, reflected.diffuse, reflected.specular}) clear(sum, count);
@@ -366,11 +523,9 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
     for (const RenderLight* const light : lights) {
         const RenderLight& source = *light;
         for (int sample = 0; sample < source.light->sample_count(); ++sample) {
-            guarded(PluginKind::light, source.plugin, [&] {
-                source.light->illuminate(sample, receivers,
-                                         {to_light_.span(), light_diffuse_.span(), light_specular_.span()});
-            });
+            const auto shadowed = illuminate(source, sample, points, count);
             look_at(PluginKind::light, source.plugin, {&to_light_, &light_diffuse_, &light_specular_});
+            if (shadowed) block(*shadowed, count);
             guarded(PluginKind::reflection, surface.reflection_plugin, [&] {
                 surface.reflection->reflect(
                     batch, {to_light_.span(), light_diffuse_.span(), light_specular_.span()}, reflected);
@@ -378,9 +533,9 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
             look_at(PluginKind::reflection, surface.reflection_plugin, {&diffuse_, &specular_});
         }
         if (source.has_ambient) {
-            guarded(PluginKind::light, source.plugin,
-                    [&] { source.light->illuminate_ambient(receivers, light_diffuse_.span()); });
+            illuminate_ambient(source, points, count);
             look_at(PluginKind::light, source.plugin, {&light_diffuse_});
+            block_ambient(source, count);
             guarded(PluginKind::reflection, surface.reflection_plugin,
                     [&] { surface.reflection->reflect_ambient(batch, light_diffuse_.span(), reflected); });
             look_at(PluginKind::reflection, surface.reflection_plugin, {&ambient_});
@@ -389,7 +544,7 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const Interior& interio
     if (surface.environment_reflection != nullptr && scene_.environment != nullptr) {
         if (surroundings_ == nullptr)
             surroundings_ = std::make_unique<ObjectEnvironment>(*scene_.environment);
-        surroundings_->set_object(surface, interior);
+        surroundings_->set_object(surface, object);
         guarded(PluginKind::reflection, surface.reflection_plugin,
                 [&] { surface.environment_reflection->show_environment(batch, *surroundings_, reflected); });
         look_at(PluginKind::reflection, surface.reflection_plugin, {&specular_});

@@ -9,6 +9,7 @@ module;
 #include <cstdint>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,7 +25,9 @@ import candela.util;
 
 namespace candela {
 class ObjectEnvironment;
-}
+class LightVisibility;
+struct LightSample;
+}  // namespace candela
 
 export namespace candela {
 
@@ -44,16 +47,16 @@ class CANDELA_EXPORT SurfaceShader {
     /// Writes the intensity that `points` send to the observer, I_a + the sum of I_d + I_s over the lights
     /// (CA DD6), into arrays with room for `points.filled`. Returns the largest intensity. Throws Error,
     /// naming the plugin, if one throws, yields a non-finite number, or writes past the end of its batch.
-    float shade(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+    float shade(const SurfaceModels& surface, const ShadedObject& object, const SurfacePoints& points,
                 const Vec3Span& intensity);
 
     /// Shades the single point of `points` and records the steps: `intensity` and the three sums are those of
     /// shade(). Throws Error like shade().
-    PointTrace trace(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
+    PointTrace trace(const SurfaceModels& surface, const ShadedObject& object, const SurfacePoints& points);
 
     /// Writes a non-geometric term of the intensity, or one of its inputs, instead of the intensity. Slower
     /// than shade(), which it calls. Throws Error like shade().
-    void find_term(Term term, const SurfaceModels& surface, const Interior& interior,
+    void find_term(Term term, const SurfaceModels& surface, const ShadedObject& object,
                    const SurfacePoints& points, const Vec3Span& values);
 
   private:
@@ -61,14 +64,29 @@ class CANDELA_EXPORT SurfaceShader {
     enum class Checking : bool { none, each_step };
     using Lights = std::vector<const RenderLight*>;
     /// Adds up, part by part, what the reflection model reflects of each of `lights`.
-    void add_up(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points,
+    void add_up(const SurfaceModels& surface, const ShadedObject& object, const SurfacePoints& points,
                 const Lights& lights, Checking checking);
     void find_tangents(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count);
     /// Writes to `reflected_` what the reflection model reflects of all lights that are data. Returns false
     /// if there are no such lights or the model does not evaluate them at once.
     bool reflect_all_lights(const SurfaceModels& surface, const SurfacePoints& points);
     void find_n_dot_l(const SurfacePoints& points, const Vec3Span& values);
-    void check_steps(const SurfaceModels& surface, const Interior& interior, const SurfacePoints& points);
+    void find_visibility(const SurfacePoints& points, const Vec3Span& values);
+    void find_ambient_visibility(const SurfacePoints& points, const Vec3Span& values);
+    /// Writes what a sample of a light sends to `count` points to to_light_, light_diffuse_ and
+    /// light_specular_. Returns it as rays to trace, if objects may block it.
+    std::optional<LightSample> illuminate(const RenderLight& source, int sample, const SurfacePoints& points,
+                                          std::size_t count);
+    /// Multiplies those intensities by the fractions that are not blocked.
+    void block(const LightSample& light, std::size_t count);
+    /// Like these, of a light's ambient part, in light_diffuse_.
+    void illuminate_ambient(const RenderLight& source, const SurfacePoints& points, std::size_t count);
+    bool block_ambient(const RenderLight& source, std::size_t count);
+    /// Writes a light that is data to to_light_, distance_ and attenuation_.
+    LightSample light_at(const PunctualLight& light, int sample, const SurfacePoints& points);
+    /// The fractions of punctual_lights_ that reach the points.
+    std::span<const float* const> visibility_of_data(const SurfacePoints& points);
+    void check_steps(const SurfaceModels& surface, const ShadedObject& object, const SurfacePoints& points);
     /// The reflection model's input; the arrays are this object's and the points'.
     SurfaceBatch lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
                              std::size_t count) const;
@@ -80,14 +98,19 @@ class CANDELA_EXPORT SurfaceShader {
                        std::initializer_list<const Vec3Arrays*> results);
 
     LightingContext scene_;
-    Lights lights_, other_lights_;  // all, and those that are not data
+    Lights lights_, other_lights_;  // all, and those that are evaluated one by one
     std::vector<PunctualLight> punctual_lights_;
+    std::vector<bool> is_blocked_;                     // whether objects may block them
     PunctualLighting lighting_;                        // refers to them
     std::unique_ptr<ObjectEnvironment> surroundings_;  // created when a model asks
     Vec3Arrays normal_, to_observer_, tangent_;
     Vec3Arrays to_light_, light_diffuse_, light_specular_;
     Vec3Arrays ambient_, diffuse_, specular_;
-    Vec3Arrays reflected_;  // of the lights that are data
+    Vec3Arrays reflected_;      // of the lights that are data
+    bool has_shadows_ = false;  // at the current points
+    std::unique_ptr<LightVisibility> visibility_;
+    AlignedVector<float> distance_, attenuation_, weights_, zeros_;
+    std::vector<const float*> weight_pointers_;
 };
 
 }  // namespace candela

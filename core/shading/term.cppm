@@ -6,13 +6,15 @@ export namespace candela {
 enum class Term {
     // Found where light is evaluated (at faces, vertices or fragments, depending on the shading model) and
     // carried to the pixels like the intensity. Sums are over the scene's lights.
-    intensity,     // I, and the background
-    ambient,       // I_a
-    diffuse,       // the sum of I_d
-    specular,      // the sum of I_s, and what transparent surfaces show of their surroundings
-    surroundings,  // only those surroundings
-    n_dot_l,       // N.L, averaged over the lights' samples; below zero for light from behind
-    normal,        // N, world space; not unit where it is interpolated between vertices
+    intensity,          // I, and the background
+    ambient,            // I_a
+    diffuse,            // the sum of I_d
+    specular,           // the sum of I_s, and what transparent surfaces show of their surroundings
+    surroundings,       // only those surroundings
+    n_dot_l,            // N.L, averaged over the lights' samples; below zero for light from behind
+    visibility,         // the fraction of the lights' samples that reach the point; needs shadows
+    ambient_occlusion,  // the fraction of ambient light that does, of lights with occlusion rays
+    normal,             // N, world space; not unit where it is interpolated between vertices
 
     background,  // where no object is visible; black elsewhere
 

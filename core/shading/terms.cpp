@@ -7,14 +7,17 @@ module;
 
 module candela.shading;
 
-import :guarded;
+import :light_visibility;
 import :term;
 import candela.api;
-import candela.plugins;
 
 namespace candela {
 
 namespace {
+
+void clear(const Vec3Span& to, std::size_t count) {
+    for (float* const channel : {to.x, to.y, to.z}) std::fill_n(channel, count, 0.0f);
+}
 
 void copy(const Vec3Arrays& from, std::size_t count, const Vec3Span& to) {
     std::copy_n(from.x.begin(), count, to.x);
@@ -24,25 +27,29 @@ void copy(const Vec3Arrays& from, std::size_t count, const Vec3Span& to) {
 
 }  // namespace
 
-void SurfaceShader::find_term(Term term, const SurfaceModels& surface, const Interior& interior,
+void SurfaceShader::find_term(Term term, const SurfaceModels& surface, const ShadedObject& object,
                               const SurfacePoints& points, const Vec3Span& values) {
-    shade(surface, interior, points, values);
+    shade(surface, object, points, values);
     switch (term) {
         case Term::intensity:
             return;
         case Term::ambient:
         case Term::diffuse:
         case Term::specular:
-            add_up(surface, interior, points, lights_, Checking::none);
+            add_up(surface, object, points, lights_, Checking::none);
             return copy(term == Term::ambient   ? ambient_
                         : term == Term::diffuse ? diffuse_
                                                 : specular_,
                         points.count, values);
         case Term::surroundings:
-            add_up(surface, interior, points, {}, Checking::none);
+            add_up(surface, object, points, {}, Checking::none);
             return copy(specular_, points.count, values);
         case Term::n_dot_l:
             return find_n_dot_l(points, values);
+        case Term::visibility:
+            return find_visibility(points, values);
+        case Term::ambient_occlusion:
+            return find_ambient_visibility(points, values);
         case Term::normal:
             return copy(normal_, points.count, values);
         default:
@@ -51,17 +58,12 @@ void SurfaceShader::find_term(Term term, const SurfaceModels& surface, const Int
 }
 
 void SurfaceShader::find_n_dot_l(const SurfacePoints& points, const Vec3Span& values) {
-    const ReceiverBatch receivers{
-        .count = points.filled, .position = points.position.span(), .normal = std::as_const(normal_).span()};
     const ConstVec3Span normal = std::as_const(normal_).span(), to_light = std::as_const(to_light_).span();
     int samples = 0;
     std::fill_n(values.x, points.count, 0.0f);
     for (const RenderLight* const source : lights_) {
         for (int sample = 0; sample < source->light->sample_count(); ++sample, ++samples) {
-            guarded(PluginKind::light, source->plugin, [&] {
-                source->light->illuminate(sample, receivers,
-                                          {to_light_.span(), light_diffuse_.span(), light_specular_.span()});
-            });
+            illuminate(*source, sample, points, points.filled);
             for (std::size_t i = 0; i < points.count; ++i) values.x[i] += dot(normal[i], to_light[i]);
         }
     }
@@ -69,6 +71,38 @@ void SurfaceShader::find_n_dot_l(const SurfacePoints& points, const Vec3Span& va
         const float mean = values.x[i] / static_cast<float>(std::max(samples, 1));
         values.set(i, {mean, mean, mean});
     }
+}
+
+void SurfaceShader::find_visibility(const SurfacePoints& points, const Vec3Span& values) {
+    const ConstVec3Span normal = std::as_const(normal_).span(), to_light = std::as_const(to_light_).span();
+    int samples = 0;
+    clear(values, points.count);
+    for (const RenderLight* const source : lights_) {
+        for (int sample = 0; sample < source->light->sample_count(); ++sample, ++samples) {
+            const auto shadowed = illuminate(*source, sample, points, points.filled);
+            const ConstVec3Span left = shadowed ? visibility_->find(*shadowed) : ConstVec3Span{};
+            for (std::size_t i = 0; i < points.count; ++i) {
+                if (dot(normal[i], to_light[i]) > 0)
+                    values.set(i, values[i] + (shadowed ? left[i] : Vec3{1, 1, 1}));
+            }
+        }
+    }
+    const float share = 1 / static_cast<float>(std::max(samples, 1));
+    for (std::size_t i = 0; i < points.count; ++i) values.set(i, share * values[i]);
+}
+
+void SurfaceShader::find_ambient_visibility(const SurfacePoints& points, const Vec3Span& values) {
+    int lights = 0;
+    clear(values, points.count);
+    for (const RenderLight* const source : lights_) {
+        if (!has_shadows_ || source->ambient_occlusion.rays == 0) continue;
+        const ConstVec3Span free = visibility_->find_ambient(source->ambient_occlusion);
+        for (std::size_t i = 0; i < points.count; ++i) values.set(i, values[i] + free[i]);
+        ++lights;
+    }
+    const float share = 1 / static_cast<float>(std::max(lights, 1));
+    for (std::size_t i = 0; i < points.count; ++i)
+        values.set(i, lights > 0 ? share * values[i] : Vec3{1, 1, 1});
 }
 
 }  // namespace candela

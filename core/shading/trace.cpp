@@ -9,6 +9,7 @@ module;
 module candela.shading;
 
 import :guarded;
+import :light_visibility;
 import :object_environment;
 import :trace;
 import candela.api;
@@ -24,13 +25,13 @@ Vec3 first_of(const Vec3Arrays& arrays) { return arrays.span()[0]; }
 }  // namespace
 
 // The sums are those of shade(); each light's share is then computed separately.
-PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& interior,
+PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject& object,
                                 const SurfacePoints& points) {
     if (points.count != 1) throw std::invalid_argument("SurfaceShader::trace() traces a single point");
     Vec3Arrays intensity;
     intensity.resize(k_batch_size);
-    shade(surface, interior, points, intensity.span());
-    add_up(surface, interior, points, lights_, Checking::none);
+    shade(surface, object, points, intensity.span());
+    add_up(surface, object, points, lights_, Checking::none);
     PointNeeds needs = surface.needs();
     needs.triangle &= surface.shading->shading_rate() != ShadingRate::vertex;
     const bool needs_tangent = surface.reflection_needs.tangent;
@@ -58,8 +59,6 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
         trace.corner_normal[k] = first_of(points.corner_normal[k]);
     }
     const std::size_t count = surface.environment_reflection != nullptr ? points.count : points.filled;
-    const ReceiverBatch receivers{
-        .count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()};
     const SurfaceBatch batch = lit_surface(surface, points, count);
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
     const auto clear = [&] {
@@ -77,27 +76,31 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const Interior& in
         const RenderLight& source = scene_.lights[i];
         for (int sample = 0; sample < source.light->sample_count(); ++sample) {
             clear();
-            guarded(PluginKind::light, source.plugin, [&] {
-                source.light->illuminate(sample, receivers,
-                                         {to_light_.span(), light_diffuse_.span(), light_specular_.span()});
-            });
+            LightTrace light{.light = i, .sample = sample};
+            if (const auto shadowed = illuminate(source, sample, points, count)) {
+                block(*shadowed, count);
+                light.visibility = visibility_->find(*shadowed)[0];
+                light.blocker = visibility_->find_blocker(*shadowed);
+            }
             guarded(PluginKind::reflection, surface.reflection_plugin, [&] {
                 surface.reflection->reflect(
                     batch, {to_light_.span(), light_diffuse_.span(), light_specular_.span()}, reflected);
             });
-            add({.light = i,
-                 .sample = sample,
-                 .to_light = first_of(to_light_),
-                 .diffuse = first_of(light_diffuse_),
-                 .specular = first_of(light_specular_)});
+            light.to_light = first_of(to_light_);
+            light.diffuse = first_of(light_diffuse_);
+            light.specular = first_of(light_specular_);
+            add(light);
         }
         if (source.has_ambient) {
             clear();
-            guarded(PluginKind::light, source.plugin,
-                    [&] { source.light->illuminate_ambient(receivers, light_diffuse_.span()); });
+            LightTrace light{.light = i};
+            illuminate_ambient(source, points, count);
+            if (block_ambient(source, count))
+                light.visibility = visibility_->find_ambient(source.ambient_occlusion)[0];
             guarded(PluginKind::reflection, surface.reflection_plugin,
                     [&] { surface.reflection->reflect_ambient(batch, light_diffuse_.span(), reflected); });
-            add({.light = i, .diffuse = first_of(light_diffuse_)});
+            light.diffuse = first_of(light_diffuse_);
+            add(light);
         }
     }
     if (surface.environment_reflection != nullptr) {

@@ -3,11 +3,13 @@ module;
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 export module candela.shading:trace;
 
 import candela.api;
+import candela.geometry;
 
 export namespace candela {
 
@@ -20,6 +22,10 @@ struct LightTrace {
     Vec3 to_light{};         // L, unit; zero for ambient light
     Vec3 diffuse{};  // the intensity that arrives, per channel; the ambient intensity for ambient light
     Vec3 specular{};
+    /// The fraction that is not blocked, which both intensities include; 1 without shadows, and where no ray
+    /// is traced, because the light does not shine there or the surface faces away from it.
+    Vec3 visibility{1, 1, 1};
+    std::optional<Blocker> blocker{};  // nearest to the point; its distance is in metres
     Vec3 reflected_ambient{};
     Vec3 reflected_diffuse{};
     Vec3 reflected_specular{};

@@ -30,7 +30,9 @@ struct KindFunctions {
 const std::vector<KindFunctions>& all_kinds() {
     static const std::vector<KindFunctions> k_kinds = {
         {PluginKind::reflection, {"reflect"}, {"reflect_ambient", "enter", "leave", "transmit", "prepare"}},
-        {PluginKind::light, {"illuminate", "illuminate_ambient"}, {"sample_count", "punctual", "prepare"}},
+        {PluginKind::light,
+         {"illuminate", "illuminate_ambient"},
+         {"sample_count", "punctual", "extent", "distance", "prepare"}},
         {PluginKind::shading, {"normal"}, {"corner_weight", "prepare"}}};
     return k_kinds;
 }

@@ -137,10 +137,16 @@ class SourceWriter {
         const bool reads_receiver = !model_.reads.receiver.empty();
         const std::string type = constants_.substr(constants_.rfind(':') + 1);
         if (has("punctual")) {
+            const char* const arguments = has("sample_count") ? "light, index" : "light";
+            const std::string light =
+                fmt::format("sdk::punctual_light({}_punctual({}))", model_.prefix, arguments);
             return fmt::format(
                 "\nPunctualLight punctual(const {}& light, [[maybe_unused]] int index) {{\n    return "
-                "sdk::punctual_light({}_punctual(light{}));\n}}\n",
-                type, model_.prefix, has("sample_count") ? ", index" : "");
+                "{};\n}}\n",
+                type,
+                has("extent")
+                    ? fmt::format("sdk::with_extent({}, {}_extent({}))", light, model_.prefix, arguments)
+                    : light);
         }
         if (reads_receiver || model_.structure.empty()) return "";
         if (has("illuminate_ambient"))
@@ -244,10 +250,11 @@ class SourceWriter {
     std::string light_class() const {
         if (has("illuminate_ambient"))
             return fmt::format("KernelAmbientLight<{}, {}>", constants_, function("illuminate_ambient"));
+        const std::string distance = has("distance") ? ", " + function("distance") : "";
         if (has("sample_count"))
-            return fmt::format("KernelSampledLight<{}, {}, {}>", constants_, function("illuminate"),
-                               function("sample_count"));
-        return fmt::format("KernelLight<{}, {}>", constants_, function("illuminate"));
+            return fmt::format("KernelSampledLight<{}, {}, {}{}>", constants_, function("illuminate"),
+                               function("sample_count"), distance);
+        return fmt::format("KernelLight<{}, {}{}>", constants_, function("illuminate"), distance);
     }
 
     std::string reflection_class() const {

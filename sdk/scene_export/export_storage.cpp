@@ -33,7 +33,7 @@ bool is_table(const PluginDescriptor& plugin, std::size_t parameter) {
 
 bool are_equal(const Vec3Arrays& a, const Vec3Arrays& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-ExportedMesh view_of(const Mesh& mesh, const PlacedShape& shape) {
+ExportedMesh view_of(const Mesh& mesh, const PlacedShape& shape, bool encloses) {
     const auto span_of = [](const Vec3Arrays& arrays) {
         return arrays.empty() ? ConstVec3Span{} : arrays.span();
     };
@@ -46,7 +46,8 @@ ExportedMesh view_of(const Mesh& mesh, const PlacedShape& shape) {
             .color = span_of(mesh.color),
             .dpdu = span_of(mesh.dpdu),
             .dpdv = span_of(mesh.dpdv),
-            .closed = mesh.closed};
+            .closed = encloses ? mesh.one_sided : mesh.closed,
+            .is_solid = mesh.closed && !mesh.one_sided && !encloses};
 }
 
 }  // namespace
@@ -54,7 +55,7 @@ ExportedMesh view_of(const Mesh& mesh, const PlacedShape& shape) {
 ExportedMesh ExportStorage::in_object_space(std::size_t object) {
     placed = place(*objects[object].tessellator, request(true), {});
     require_no_colors(object);
-    return view_of(placed.mesh, placed);
+    return view_of(placed.mesh, placed, objects[object].encloses);
 }
 
 ExportedMesh ExportStorage::in_world_space(std::size_t object) {
@@ -80,7 +81,7 @@ ExportedMesh ExportStorage::in_world_space(std::size_t object) {
     }
     normals_view.clear();
     for (const Vec3Arrays& set : normal_sets) normals_view.push_back(set.span());
-    ExportedMesh view = view_of(placed.mesh, placed);
+    ExportedMesh view = view_of(placed.mesh, placed, from.encloses);
     view.normals = normals_view;
     view.normals_of = normals_of;
     return view;

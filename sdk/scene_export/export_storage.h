@@ -23,6 +23,7 @@ struct ExportStorage : ExportedGeometry {
         std::string label;
         std::unique_ptr<Shape> tessellator;
         Transform transform;
+        bool encloses = false;
         std::vector<ExportedValues> shadings, materials;
         std::vector<ParamSet> shading_values;
     };

@@ -109,6 +109,12 @@ class Exporter {
                            .background = image.background,
                            .environment = to_.environment.c_str(),
                            .color_management = image.color_management};
+        if (scene_.shadows.enabled && !request_.abilities.shadows)
+            throw Error(ErrorCategory::failure,
+                        "[shadows]: objects cast no shadows in what this target makes; --no-shadows leaves "
+                        "them out");
+        to_.scene.has_shadows = scene_.shadows.enabled;
+        to_.scene.shadows_vary = scene_.shadows.pattern == ShadowPattern::varied;
         to_.scene.room = {scene_.room.width, scene_.room.height, scene_.room.depth};
         const Observer observer = fitted(scene_.observer, image.width, image.height);
         to_.scene.observer = {.position = observer.position,
@@ -155,7 +161,10 @@ class Exporter {
                               .model = put(to_.light_models, ExportedModel{&loaded, id_of(PluginKind::light,
                                                                                           light.model.name)}),
                               .values = to_.kept(loaded, light.model.parameters,
-                                                 [&]() -> const Light* { return source.light.get(); })});
+                                                 [&]() -> const Light* { return source.light.get(); }),
+                              .casts_shadows = light.casts_shadows,
+                              .ambient_occlusion_rays = light.ambient_occlusion.rays,
+                              .ambient_occlusion_distance = light.ambient_occlusion.distance});
         if (!source.data) return;
         ExportedLight& to = to_.lights.back();
         to.ambient = source.data->ambient;
@@ -313,6 +322,7 @@ class Exporter {
         auto& own = to_.objects.emplace_back();
         own.tessellator = made<Shape>(object.shape.name, object.shape.parameters);
         own.transform = object.transform;
+        own.encloses = object.encloses;
         ExportedObject exported{
             .label = kept(name_in(object.label)),
             .color = object.color,
@@ -323,7 +333,10 @@ class Exporter {
                          [&]() -> const Shape* { return own.tessellator.get(); }),
             .transform = object.transform,
             .color_texture = texture_of(object),
-            .color_texture_repeats = object.color_texture_wrap == TextureWrap::repeat};
+            .color_texture_repeats = object.color_texture_wrap == TextureWrap::repeat,
+            .casts_shadows = object.casts_shadows,
+            .receives_shadows = object.receives_shadows,
+            .transmits_light = object.transmits_light};
         // Not by their names: files with the same text are the same plugin.
         const PluginDescriptor& shading = registry_.descriptor(PluginKind::shading, object.shading.name);
         const PluginDescriptor& reflection =

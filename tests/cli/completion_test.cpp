@@ -38,7 +38,7 @@ TEST_CASE("completion: verbs, options, and names of plugins") {
     CHECK(completions({"re"}) == Offered{"render"});
     CHECK(completions({"help", "sch"}) == Offered{"schema"});
     CHECK(completions({"plugin", ""}) == Offered{"new", "test", "doctor"});
-    CHECK(completions({"render", "--sh"}) == Offered{"--shading"});
+    CHECK(completions({"render", "--shad"}) == Offered{"--shading", "--shadows"});
     CHECK(completions({"render", "--reflection", "oren"}) == Offered{"oren-nayar"});
     CHECK(completions({"render", "--reflection=oren"}) == Offered{"--reflection=oren-nayar"});
     CHECK(completions({"compare", "--reflection", "phong,gg"}) == Offered{"phong,ggx"});
@@ -81,7 +81,8 @@ TEST_CASE("completion: files are left to the shell, and mistakes before the curs
     CHECK(completions({"render", ""}) == Offered{"\tfiles"});
     CHECK(completions({"render", "-o", ""}) == Offered{"\tfiles"});
     CHECK(completions({"render", "--plugin-dir", ""}) == Offered{"\tfolders"});
-    CHECK(completions({"render", "--wrong", "--threads", "many", "--sh"}) == Offered{"--shading"});
+    CHECK(completions({"render", "--wrong", "--threads", "many", "--sha"}) ==
+          Offered{"--shading", "--shadows"});
     CHECK(completions({"render", "no-such-scene.toml", "--set", "obser"}) == Offered{"observer."});
 }
 

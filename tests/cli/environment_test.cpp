@@ -71,7 +71,8 @@ TEST_CASE(
     const std::vector<std::pair<std::string, std::string>> hidden{
         {"LD_LIBRARY_PATH", (d / "hidden").string()}};
     const CommandResult result = render("", d, hidden);
-    expect(result, 1, {"Embree follows rays within transparent objects", "Debian's package libembree"});
+    expect(result, 1,
+           {"Embree follows rays to lights and within transparent objects", "Debian's package libembree"});
     CHECK_FALSE(d.has("out.ppm"));
     expect(d.run("render scene.toml --reflection phong -o out.ppm", {}, hidden), 0);
 }

@@ -207,6 +207,8 @@ void add_scene_options(CommandLine& line) {
         "samples", po::value<std::string>()->value_name("N"), "samples per pixel: 1, 4, 8 or 16")(
         "set", po::value<std::vector<std::string>>()->value_name("PATH=VALUE"),
         "override one value, such as light.lamp.intensity=3 or object.0.color=[255,0,0]; can be repeated")(
+        "shadows", "let objects block light; overrides the scene")(
+        "no-shadows", "let no object block light; overrides the scene")(
         "allow-outside", "let a model name files outside its own folder, such as ../textures/wood.png")(
         "defaults", "if the scene names no shading or reflection model, use Phong without asking");
     add_plugin_options(line);
@@ -281,6 +283,14 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
         request.settings.push_back(
             {fmt::format("--{}", flag), fmt::format("image.{}", flag), line.get<std::string>(flag)});
     }
+    if (line.has("shadows") && line.has("no-shadows"))
+        throw Error(ErrorCategory::bad_request, "--shadows and --no-shadows contradict each other");
+    for (const bool enabled : {true, false}) {
+        const char* const flag = enabled ? "shadows" : "no-shadows";
+        if (line.has(flag))
+            request.settings.push_back(
+                {fmt::format("--{}", flag), "shadows.enabled", enabled ? "true" : "false"});
+    }
     for (candela::Setting& setting : settings_from(line, "set"))
         request.settings.push_back(std::move(setting));
     if (line.has("shading")) request.shading = {line.get<std::string>("shading"), "--shading"};
@@ -301,7 +311,8 @@ std::vector<std::string> scene_words_from(const CommandLine& line) {
     for (const char* const option : {"set", "plugin-dir"})
         for (const std::string& value : line.all(option))
             words.push_back(fmt::format("--{}={}", option, value));
-    for (const char* const option : {"defaults", "allow-outside", "allow-untrusted-plugins"})
+    for (const char* const option :
+         {"shadows", "no-shadows", "defaults", "allow-outside", "allow-untrusted-plugins"})
         if (line.has(option)) words.push_back(fmt::format("--{}", option));
     return words;
 }

@@ -44,6 +44,9 @@ constexpr KnownTerm k_terms[] = {
     {"background", Term::background, false, k_color, "background"},
     {"light", Term::intensity, true, k_color, "light"},
     {"n_dot_l", Term::n_dot_l, true, {""}, "n_dot_l"},
+    {"visibility", Term::visibility, false, k_color, "visibility"},
+    {"visibility", Term::visibility, true, k_color, "visibility"},
+    {"ambient_occlusion", Term::ambient_occlusion, false, k_color, "ambient_occlusion"},
     {"normal", Term::normal, false, k_vector, "N"},
     {"face_normal", Term::face_normal, false, k_vector, "Ng"},
     {"position", Term::position, false, k_vector, "P"},
@@ -66,10 +69,13 @@ std::string name_of_light(const candela::Label& label) {
     return label.name.empty() ? std::to_string(label.number) : label.name;
 }
 
+bool needs_shadows(Term term) { return term == Term::visibility || term == Term::ambient_occlusion; }
+
 /// The possible words of a list: all terms, and those of each light.
 std::vector<NamedTerm> possible_terms(const candela::Scene& scene) {
     std::vector<NamedTerm> all;
     for (const KnownTerm& known : k_terms) {
+        if (needs_shadows(known.term) && !scene.shadows.enabled) continue;
         if (!known.is_of_light) {
             all.push_back({std::string(known.name), known.term});
             continue;
@@ -95,6 +101,14 @@ std::vector<NamedTerm> meant_by(const std::string& word, const std::vector<Named
     for (const NamedTerm& term : possible) {
         if (term.light && word == fmt::format("{}.{}", known(term).name, *term.light))
             return {{word, term.term, term.light}};
+    }
+    for (const KnownTerm& term : k_terms) {
+        if (needs_shadows(term.term) && word.substr(0, word.find('.')) == term.name)
+            throw Error(
+                ErrorCategory::bad_request,
+                fmt::format("{}: the term '{}' needs shadows, and the scene has none; add --shadows, or "
+                            "[shadows] with enabled = true",
+                            origin, candela::printable(word)));
     }
     std::vector<std::string> words{"all", "light", "n_dot_l"};
     for (const NamedTerm& term : possible) words.push_back(term.name);

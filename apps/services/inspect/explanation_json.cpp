@@ -71,6 +71,11 @@ Json json_of(const Explanation& e, const PointTrace& point, const LightTrace& li
         result["diffuse"] = json_of(light.diffuse);
         result["specular"] = json_of(light.specular);
     }
+    if (e.scene.shadows.enabled) result["visibility"] = json_of(light.visibility);
+    if (light.blocker)
+        result["blocked_by"] = {{"object", e.scene.objects[light.blocker->object].label.text()},
+                                {"triangle", light.blocker->triangle},
+                                {"distance", light.blocker->distance}};
     result["light_steps"] = json_of(e.light_steps(light));
     result["reflection"] = reflection;
     result["reflection_steps"] = json_of(e.reflection_steps(light));

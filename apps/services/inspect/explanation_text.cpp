@@ -113,6 +113,7 @@ class Writer {
              fmt::format("light {}, {}{}", source.label.text(), candela::shown_model_name(source.model.name),
                          light.sample > 0 ? fmt::format(", sample {}", light.sample) : ""));
         if (is_ambient) {
+            write_visibility(light);
             value(3, "arriving", light.diffuse);
         } else {
             const Vec3 n = point.normal, l = light.to_light, v = point.to_observer;
@@ -124,6 +125,7 @@ class Writer {
                 const Vec3 h = (1 / length(half)) * half;
                 value(3, "H", h, fmt::format("N.H = {:.6g}", dot(n, h)));
             }
+            write_visibility(light);
             value(3, "arriving", light.diffuse);
             if (light.specular != light.diffuse) value(3, "arriving, for highlights", light.specular);
         }
@@ -133,6 +135,18 @@ class Writer {
         if (is_ambient) return value(3, "I_a", light.reflected_ambient);
         value(3, "I_d", light.reflected_diffuse);
         value(3, "I_s", light.reflected_specular);
+    }
+
+    /// How much of the light is not blocked, and by what it is.
+    void write_visibility(const LightTrace& light) {
+        if (!e_.scene.shadows.enabled) return;
+        std::string remark = light.visibility == Vec3{1, 1, 1} ? "nothing is in the way" : "";
+        if (light.blocker) {
+            const candela::Label& label = e_.scene.objects[light.blocker->object].label;
+            remark = fmt::format("blocked by object {}, triangle {}, at {:.6g} m", label.text(),
+                                 light.blocker->triangle, light.blocker->distance);
+        }
+        value(3, "visibility", light.visibility, remark);
     }
 
     /// Of the outermost function's arguments, shows only those not shown yet: its parameters.

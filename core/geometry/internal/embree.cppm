@@ -26,9 +26,13 @@ struct Embree {
     CANDELA_EMBREE_FUNCTION(new_geometry, rtcNewGeometry);
     CANDELA_EMBREE_FUNCTION(release_geometry, rtcReleaseGeometry);
     CANDELA_EMBREE_FUNCTION(set_new_geometry_buffer, rtcSetNewGeometryBuffer);
+    CANDELA_EMBREE_FUNCTION(set_shared_geometry_buffer, rtcSetSharedGeometryBuffer);
+    CANDELA_EMBREE_FUNCTION(set_geometry_user_data, rtcSetGeometryUserData);
     CANDELA_EMBREE_FUNCTION(commit_geometry, rtcCommitGeometry);
     CANDELA_EMBREE_FUNCTION(attach_geometry, rtcAttachGeometry);
+    CANDELA_EMBREE_FUNCTION(attach_geometry_by_id, rtcAttachGeometryByID);
     CANDELA_EMBREE_FUNCTION(intersect16, rtcIntersect16);
+    CANDELA_EMBREE_FUNCTION(occluded16, rtcOccluded16);
 #undef CANDELA_EMBREE_FUNCTION
 
     RTCDevice device;
@@ -46,10 +50,21 @@ struct Embree {
     static constexpr RTCSceneFlags k_filters_by_call = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 #endif
 
+    /// Passed to filters; a caller's own data may follow it.
+#if RTC_VERSION_MAJOR >= 4
+    using RayContext = RTCRayQueryContext;
+#else
+    using RayContext = RTCIntersectContext;
+#endif
+
     /// Finds the nearest hits of rays that are close to each other, except those that `filter` rejects, if
     /// there is one.
     void trace(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCFilterFunctionN filter,
-               RTCRayHit16& rays) const;
+               RayContext& context, RTCRayHit16& rays) const;
+
+    /// Finds which of the rays hit anything that `filter` does not reject: their `tfar` becomes negative.
+    void occluded(RTCScene scene, const std::array<int, k_packet_size>& is_valid, RTCFilterFunctionN filter,
+                  RayContext& context, RTCRay16& rays) const;
 
     /// Throws an Error that names the library if it cannot be loaded, and std::bad_alloc.
     static const Embree& instance();

@@ -83,6 +83,10 @@ class CANDELA_EXPORT EnvironmentReflection {
   public:
     virtual ~EnvironmentReflection();
 
+    /// The fraction of light, per channel, that is left after `distance` metres inside an object of colour
+    /// `color`, for shadows. By default there is none: the object is opaque.
+    virtual Rgb transmittance(const Rgb& color, float distance) const;
+
     /// Adds to `reflected.specular` what each point shows of the environment, by mirroring and refraction
     /// (CA LC1).
     virtual void show_environment(const SurfaceBatch& surface, Environment& environment,

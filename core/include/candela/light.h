@@ -22,6 +22,9 @@ struct IncidentBatch {
     Vec3Span to_light;  // unit vectors from the receiver towards the light
     Vec3Span diffuse;   // intensity per channel, >= 0, attenuated
     Vec3Span specular;  // like `diffuse`, for highlights
+    /// The distance from each receiver to the source, metres, beyond which nothing blocks the light. Null
+    /// unless there are shadows; infinite if the light leaves it as it is.
+    float* distance = nullptr;
 };
 
 /// A light. Any thread, any batch size from 1; arrays have `count` elements, and nothing outside them may be

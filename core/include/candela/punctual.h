@@ -30,6 +30,10 @@ struct PunctualLight {
     Vec3 axis{};
     float cos_outer = -1;
     float cone_scale = 0;
+    /// The part of a line or rectangle that this sample stands for, as its edges; zero for a point. With
+    /// shadows, the position varies over it, centred on `position`.
+    Vec3 extent_u{};
+    Vec3 extent_v{};
 };
 
 /// All the light that a batch of points receives, as data.
@@ -40,6 +44,8 @@ struct PunctualLighting {
     float w = 1;
     Rgb ambient{};  // equal at all points
     std::span<const PunctualLight> lights{};
+    /// For each light, the fraction of it that reaches each point of the batch; empty: all of it.
+    std::span<const float* const> visibility{};
 };
 
 }  // namespace candela

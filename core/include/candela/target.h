@@ -48,6 +48,10 @@ struct ExportedLight {
                            // members
     std::span<const PunctualLight> punctual{};  // one per sample
     Rgb ambient{};                              // the part that comes from everywhere
+    // With ExportedScene::has_shadows:
+    bool casts_shadows = true;       // objects block its samples
+    int ambient_occlusion_rays = 0;  // per point, which find how much of its ambient part is blocked; or 0
+    float ambient_occlusion_distance = 0;  // by what is nearer than this, metres
 };
 
 /// One level of a texture: half as wide and high as the one before, down to a single texel.
@@ -79,6 +83,10 @@ struct ExportedObject {
     Transform transform{};
     std::size_t color_texture = k_no_texture;  // index into ExportedScene::textures
     bool color_texture_repeats = true;         // beyond its edges; otherwise the edge colours continue
+    // With ExportedScene::has_shadows:
+    bool casts_shadows = true;     // it blocks light
+    bool receives_shadows = true;  // others, and its own parts, block light on it
+    bool transmits_light = true;   // although it casts shadows, if its model is transparent
 };
 
 /// The position of a sample within its pixel, in pixels from the top left.
@@ -122,6 +130,9 @@ struct ExportedMesh {
     ConstVec3Span dpdu{};   // partial derivatives of position
     ConstVec3Span dpdv{};
     bool closed = false;  // otherwise visible, and lit, from both sides
+    /// With shadows: closed, and nothing is inside. It blocks light only where light enters, others on both
+    /// sides. (candela::OcclusionTree says how a surface meets its own light.)
+    bool is_solid = false;
     // In world space only:
     std::span<const ConstVec3Span> normals{};   // sets of unit vertex normals, all different
     std::span<const std::size_t> normals_of{};  // for each shading model of the scene, the index of its set
@@ -163,6 +174,8 @@ struct ExportedScene {
     std::span<const ExportedTexture> textures{};
     bool needs_uv = false;           // a model reads texture coordinates, or an object has a texture
     bool needs_derivatives = false;  // a model reads partial derivatives of positions
+    bool has_shadows = false;        // objects block light
+    bool shadows_vary = true;        // samples of lights with an extent vary from pixel to pixel within it
     ExportedGeometry* geometry = nullptr;
 };
 
@@ -212,6 +225,7 @@ struct TargetAbilities {
     bool triangle = false;               // kernels of shading models that read their triangle: ShadingNeeds
     bool vertex_colors = false;          // ExportedMesh::color; otherwise the host refuses a mesh that has it
     bool textures = false;               // ExportedObject::color_texture
+    bool shadows = false;                // ExportedScene::has_shadows
 };
 
 /// Turns a scene into something else: a program, a page, a file. Any thread.

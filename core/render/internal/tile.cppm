@@ -31,6 +31,12 @@ struct VisibleTile {
 /// Whether the background is shown (see RenderOptions).
 bool shows_background(Term term, std::optional<std::size_t> light);
 
+/// The light, and what may block it. `transmitters` is filled, and referred to.
+LightingContext lighting_context(const RenderScene& scene, const Camera& camera,
+                                 std::vector<Transmitter>& transmitters);
+ShadedObject shaded_object(const RenderScene& scene, std::uint32_t index);
+PointNeeds needs_of(const RenderScene& scene, const SurfaceModels& surface);
+
 /// Turns the fragments of a tile into pixels. Owns a tile's arrays: use one per thread.
 class TileShader {
   public:
@@ -69,6 +75,7 @@ class TileShader {
     const ProjectedScene* projected_ = nullptr;
     Term term_ = Term::intensity;
     bool has_background_ = true;
+    std::vector<Transmitter> transmitters_;
     SurfaceShader surface_shader_;
     SurfacePoints points_;
     SparseSet sparse_set_;              // of a tile's faces, or sides of vertices

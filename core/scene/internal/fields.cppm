@@ -169,6 +169,7 @@ struct OwnTables {
     Table<Observer> observer;
     Table<ImageSettings> image;
     Table<ConstraintSettings> constraints;
+    Table<ShadowSettings> shadows;
     Table<Model> shading, reflection;  // of objects that name none
     Table<LightSource> light;
     Table<Object> object;

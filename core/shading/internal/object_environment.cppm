@@ -24,9 +24,9 @@ class ObjectEnvironment final : public Environment {
     explicit ObjectEnvironment(const EnvironmentMap& environment) : environment_(environment) {}
 
     /// Sets the object for the following calls.
-    void set_object(const SurfaceModels& surface, const Interior& interior) {
+    void set_object(const SurfaceModels& surface, const ShadedObject& object) {
         surface_ = &surface;
-        interior_ = interior;
+        object_ = object;
     }
 
     void look(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) override;
@@ -40,7 +40,7 @@ class ObjectEnvironment final : public Environment {
 
     const EnvironmentMap& environment_;
     const SurfaceModels* surface_ = nullptr;
-    Interior interior_;
+    ShadedObject object_;
     SurfacePoints points_;  // where rays left
     Vec3Arrays barycentric_, normal_;
     std::vector<std::uint32_t> triangles_;

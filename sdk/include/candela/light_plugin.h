@@ -19,9 +19,23 @@
 //     Punctual x_punctual(XLight light)
 //     Punctual x_punctual(XLight light, int index)
 //
+// A light with an extent, whose shadows have penumbras, also says which part of it a sample stands for:
+//
+//     Extent x_extent(XLight light)
+//     Extent x_extent(XLight light, int index)
+//
+// For shadows, a light that is not data may say how far away it is; without that, it is infinitely far:
+//
+//     float x_distance(XLight light, Receiver r)
+//     float x_distance(XLight light, Receiver r, int index)
+//
 // A light that reads nothing of the receiver is described without one. The conformance kit checks the
 // description against the other functions.
 #pragma once
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
 
 #include "candela/extensions.h"
 #include "candela/kernel/simd_dispatch.h"
@@ -46,6 +60,13 @@ inline PunctualLight punctual_light(const kernel::Punctual& given) {
     light.axis = {given.axis.x, given.axis.y, given.axis.z};
     light.cos_outer = given.cos_outer;
     light.cone_scale = 1.0f / kernel::max(given.cos_inner - given.cos_outer, 1.0e-7f);
+    return light;
+}
+
+/// The same light with the extent of its sample.
+inline PunctualLight with_extent(PunctualLight light, const kernel::Extent& part) {
+    light.extent_u = {part.u.x, part.u.y, part.u.z};
+    light.extent_v = {part.v.x, part.v.y, part.v.z};
     return light;
 }
 
@@ -79,6 +100,43 @@ struct IlluminateLoop {
         }
     }
 };
+
+template <class Params, auto distance>
+struct DistanceLoop {
+    template <class... Index>
+    CANDELA_BATCH_LOOP static void run(Params light, ReceiverBatch receivers, float* to, Index... index) {
+        const std::size_t count = receivers.count;
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i)
+            to[i] = call<distance>(light, receiver_at(receivers, i), index...);
+    }
+};
+
+/// No function of a kernel.
+inline constexpr int k_none = 0;
+
+/// Writes the distance from the receivers, if it is asked for and the kernel knows it.
+template <class Params, auto distance, class... Index>
+void find_distance(const Params& params, const ReceiverBatch& receivers, const IncidentBatch& incident,
+                   Index... index) {
+    if constexpr (!std::is_same_v<decltype(distance), int>) {
+        if (incident.distance != nullptr)
+            multiversion<DistanceLoop<Params, distance>>(params, receivers, incident.distance, index...);
+    }
+}
+
+/// The kernel functions of a light: `others`, and `distance` unless it is k_none.
+template <class Params, auto distance, std::size_t size>
+constexpr auto with_distance(const std::array<KernelFunction, size>& others) {
+    if constexpr (std::is_same_v<decltype(distance), int>) {
+        return others;
+    } else {
+        std::array<KernelFunction, size + 1> all{};
+        for (std::size_t i = 0; i < size; ++i) all[i] = others[i];
+        all[size] = kernel_function<Params, distance>("distance");
+        return all;
+    }
+}
 
 template <class Params, auto illuminate_ambient>
 struct IlluminateAmbientLoop {
@@ -134,31 +192,33 @@ class AmbientLightParams<Params> : public LightParams<Params>, public UniformAmb
     }
 };
 
-template <class Params, auto illuminate_>
+template <class Params, auto illuminate_, auto distance_ = k_none>
 class KernelLight : public Light, public SampledLightParams<Params> {
   public:
-    static constexpr KernelFunction k_kernel_functions[] = {
-        kernel_function<Params, illuminate_>("illuminate")};
+    static constexpr auto k_kernel_functions =
+        with_distance<Params, distance_>(std::array{kernel_function<Params, illuminate_>("illuminate")});
 
     explicit KernelLight(const Params& params) : SampledLightParams<Params>(params) {}
     int sample_count() const noexcept override { return 1; }
     void illuminate(int, const ReceiverBatch& receivers, const IncidentBatch& incident) const override {
         multiversion<IlluminateLoop<Params, illuminate_>>(this->params(), receivers, incident);
+        find_distance<Params, distance_>(this->params(), receivers, incident);
     }
 };
 
-template <class Params, auto illuminate_, auto sample_count_>
+template <class Params, auto illuminate_, auto sample_count_, auto distance_ = k_none>
 class KernelSampledLight : public Light, public SampledLightParams<Params> {
   public:
-    static constexpr KernelFunction k_kernel_functions[] = {
-        kernel_function<Params, illuminate_>("illuminate"),
-        kernel_function<Params, sample_count_>("sample_count")};
+    static constexpr auto k_kernel_functions =
+        with_distance<Params, distance_>(std::array{kernel_function<Params, illuminate_>("illuminate"),
+                                                    kernel_function<Params, sample_count_>("sample_count")});
 
     explicit KernelSampledLight(const Params& params) : SampledLightParams<Params>(params) {}
     int sample_count() const noexcept override { return call<sample_count_>(this->params()); }
     void illuminate(int sample, const ReceiverBatch& receivers,
                     const IncidentBatch& incident) const override {
         multiversion<IlluminateLoop<Params, illuminate_>>(this->params(), receivers, incident, sample);
+        find_distance<Params, distance_>(this->params(), receivers, incident, sample);
     }
 };
 

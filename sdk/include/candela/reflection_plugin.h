@@ -168,6 +168,17 @@ CANDELA_KERNEL_INLINE ConstVec3Span seen_from(const ConstVec3Span& position, flo
     return w != 0 ? position : ConstVec3Span{k_zero, k_zero, k_zero};
 }
 
+/// Multiplies the attenuation of the points from `first` on by the fraction of the light that reaches them.
+CANDELA_KERNEL_INLINE void shadow(const float* visibility, std::size_t first, std::size_t count,
+                                  PunctualBatch& batch) {
+    if (count >= first + k_pass_size) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < k_pass_size; ++i) batch.attenuation[i] *= visibility[first + i];
+        return;
+    }
+    for (std::size_t i = first; i < count; ++i) batch.attenuation[i - first] *= visibility[i];
+}
+
 /// The direction to a light, and its attenuation. At the light itself, L is N.
 /// `position`: see seen_from().
 CANDELA_KERNEL_INLINE void look_at(PunctualLight light, const ConstVec3Span& position,
@@ -208,8 +219,10 @@ struct ReflectPunctualLoop {
         return s;
     }
 
+    /// The pass begins at point `first` of a batch of `all`.
     CANDELA_KERNEL_INLINE static void add_lights(const Material& material, const SurfaceBatch& surface,
-                                                 const PunctualLighting& lighting, Vec3Span intensity) {
+                                                 const PunctualLighting& lighting, std::size_t first,
+                                                 std::size_t all, Vec3Span intensity) {
         const vec3 ambient = kernel_vector(lighting.ambient), observer = kernel_vector(lighting.observer);
         const ConstVec3Span eye_position = seen_from(surface.position, lighting.w);
         PunctualBatch batch;
@@ -218,8 +231,10 @@ struct ReflectPunctualLoop {
             store(batch.to_observer, i, kernel::normalize(observer - load(eye_position, i)));
             store(intensity, i, call<reflect_ambient>(material, point(surface, batch, i)) * ambient);
         }
-        for (const PunctualLight& light : lighting.lights) {
+        for (std::size_t k = 0; k < lighting.lights.size(); ++k) {
+            const PunctualLight light = lighting.lights[k];
             look_at(light, seen_from(surface.position, light.w), surface.normal, batch);
+            if (!lighting.visibility.empty()) shadow(lighting.visibility[k], first, all, batch);
             const vec3 diffuse = kernel_vector(light.diffuse), specular = kernel_vector(light.specular);
             CANDELA_VECTORIZE_FOUR
             for (std::size_t i = 0; i < k_pass_size; ++i) {
@@ -235,7 +250,7 @@ struct ReflectPunctualLoop {
     CANDELA_BATCH_LOOP static void run(Material material, const SurfacePasses* passes,
                                        PunctualLighting lighting, Vec3Span intensity, PassVectors* rest) {
         for (std::size_t first = 0; first < passes->count(); first += k_pass_size)
-            add_lights(material, passes->from(first), lighting,
+            add_lights(material, passes->from(first), lighting, first, passes->count(),
                        first < passes->whole() ? intensity.from(first) : rest->span());
     }
 };

@@ -161,6 +161,11 @@ class KernelRefraction : public ReflectionModel, public EnvironmentReflection {
             follow(passes.from(first), environment, reflected.specular.from(first));
     }
 
+    Rgb transmittance(const Rgb& color, float distance) const override {
+        const vec3 left = call<transmit_>(material_, kernel_vector(color), distance);
+        return {left.x, left.y, left.z};
+    }
+
   private:
     /// The mirrored part, then the part that leaves at the far side, then the part that leaves after another
     /// internal reflection …

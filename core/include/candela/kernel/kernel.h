@@ -215,6 +215,8 @@ namespace candela::kernel {
     Refracted { __VA_ARGS__ }
 #define Incident(...) \
     Incident { __VA_ARGS__ }
+#define Extent(...) \
+    Extent { __VA_ARGS__ }
 #endif
 
 #include "candela/kernel/prelude.kernel"

@@ -1,0 +1,263 @@
+module;
+
+#include "candela/kernel/simd_dispatch.h"
+#include "internal/embree_headers.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <new>
+#include <optional>
+#include <span>
+#include <vector>
+
+module candela.geometry;
+
+import :embree;
+import candela.api;
+import candela.util;
+
+namespace candela {
+
+namespace {
+
+constexpr std::size_t k_size = OcclusionTree::k_packet;
+static_assert(k_size == Embree::k_packet_size);
+
+/// Embree's tree takes this many bytes per triangle, as measured; its largest, while it is being built.
+constexpr std::uint64_t k_bytes_per_triangle = 250;
+
+/// Embree passes it to the filter with each hit of the surface.
+struct Surface {
+    std::uint32_t object = 0;
+    bool is_solid = false;
+    bool is_transparent = false;
+};
+
+/// A hit of a transparent object: rays meet its surface in pairs.
+struct TransparentHit {
+    std::uint32_t ray, object, triangle;
+    float along;  // the ray, in multiples of its direction
+    bool enters;
+};
+
+/// The filter's knowledge of a packet. Its beginning is Embree's own.
+struct PacketContext {
+    Embree::RayContext context{};
+    std::uint32_t object = 0;  // on which the rays start
+    std::vector<TransparentHit>* hits = nullptr;
+};
+
+/// The cosine, times lengths, of the angle between a ray and the outer normal of the triangle that it hits:
+/// positive where it leaves.
+float leaving(const RTCFilterFunctionNArguments* hits, unsigned i) {
+    const unsigned count = hits->N;
+    return RTCRayN_dir_x(hits->ray, count, i) * RTCHitN_Ng_x(hits->hit, count, i) +
+           RTCRayN_dir_y(hits->ray, count, i) * RTCHitN_Ng_y(hits->hit, count, i) +
+           RTCRayN_dir_z(hits->ray, count, i) * RTCHitN_Ng_z(hits->hit, count, i);
+}
+
+/// Lets light pass where it leaves a solid object, or its own; and through transparent ones.
+void let_pass(const RTCFilterFunctionNArguments* hits) {
+    const auto& surface = *static_cast<const Surface*>(hits->geometryUserPtr);
+    const auto& packet = *reinterpret_cast<const PacketContext*>(hits->context);
+    const bool is_own = surface.object == packet.object;
+    if (!surface.is_solid && !is_own && !surface.is_transparent) return;
+    for (unsigned i = 0; i < hits->N; ++i) {
+        if (hits->valid[i] == 0) continue;
+        const float cosine = leaving(hits, i);
+        const unsigned id = RTCRayN_id(hits->ray, hits->N, i);
+        if (surface.is_transparent) {
+            packet.hits->push_back({static_cast<std::uint32_t>(id % k_size), surface.object,
+                                    RTCHitN_primID(hits->hit, hits->N, i),
+                                    RTCRayN_tfar(hits->ray, hits->N, i), cosine < 0});
+            hits->valid[i] = 0;
+        } else if (surface.is_solid) {
+            if (!(cosine < 0)) hits->valid[i] = 0;
+        } else if ((id & ShadowRays::k_from_below) != 0) {
+            const bool is_behind = (id & ShadowRays::k_from_behind) != 0;
+            if (is_behind ? cosine <= 0 : cosine >= 0) hits->valid[i] = 0;
+        }
+    }
+}
+
+/// Sixteen rays for Embree.
+struct PacketLoop {
+    CANDELA_BATCH_LOOP static void run(ConstVec3Span origin, ConstVec3Span direction, const float* length,
+                                       const std::uint32_t* flags, RTCRay16* rays, int* valid) {
+        CANDELA_VECTORIZE_SIXTEEN
+        for (std::size_t i = 0; i < k_size; ++i) {
+            rays->org_x[i] = origin.x[i];
+            rays->org_y[i] = origin.y[i];
+            rays->org_z[i] = origin.z[i];
+            rays->dir_x[i] = direction.x[i];
+            rays->dir_y[i] = direction.y[i];
+            rays->dir_z[i] = direction.z[i];
+            rays->tnear[i] = 0.0f;
+            rays->tfar[i] = length[i];
+            rays->time[i] = 0.0f;
+            rays->mask[i] = ~0u;
+            rays->flags[i] = 0;
+            rays->id[i] = flags[i] | static_cast<std::uint32_t>(i);
+            valid[i] = flags[i] != 0 ? -1 : 0;
+        }
+    }
+};
+
+/// The longest edge of the mesh's triangles, along any axis.
+float largest_triangle(const Mesh& mesh) {
+    float largest = 0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const Vec3 a = mesh.vertices[mesh.indices[i]].position;
+        for (std::size_t k = 1; k < 3; ++k) {
+            const Vec3 edge = mesh.vertices[mesh.indices[i + k]].position - a;
+            largest = std::max({largest, std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
+        }
+    }
+    return largest;
+}
+
+}  // namespace
+
+struct OcclusionTree::Tree {
+    const Embree& embree = Embree::instance();
+    RTCScene scene = embree.new_scene(embree.device);
+    std::vector<Surface> surfaces;
+    float largest = 0;  // extent of a triangle that blocks light on both sides
+    bool has_transparent = false;
+
+    Tree() = default;
+    Tree(const Tree&) = delete;
+    Tree& operator=(const Tree&) = delete;
+    ~Tree() { embree.release_scene(scene); }
+
+    void add(const Mesh& mesh, Surface& surface) const;
+};
+
+void OcclusionTree::Tree::add(const Mesh& mesh, Surface& surface) const {
+    auto* const geometry = embree.new_geometry(embree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    // Sixteen bytes are read of each vertex, which has as many.
+    embree.set_shared_geometry_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                      mesh.vertices.data(), 0, sizeof(MeshVertex), mesh.vertices.size());
+    embree.set_shared_geometry_buffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                      mesh.indices.data(), 0, 3 * sizeof(std::uint32_t),
+                                      mesh.triangle_count());
+    embree.set_geometry_user_data(geometry, &surface);
+    embree.commit_geometry(geometry);
+    embree.attach_geometry_by_id(scene, geometry, surface.object);
+    embree.release_geometry(geometry);
+}
+
+OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::make_unique<Tree>()) {
+    Tree& t = *tree_;
+    std::uint64_t triangles = 0;
+    for (const Occluder& each : occluders) {
+        if (each.mesh != nullptr) triangles += each.mesh->triangle_count();
+    }
+    require_memory(triangles * k_bytes_per_triangle, "the tree of the triangles that cast shadows");
+    t.surfaces.resize(occluders.size());
+    for (std::size_t i = 0; i < occluders.size(); ++i) {
+        const Occluder& occluder = occluders[i];
+        t.surfaces[i] = {static_cast<std::uint32_t>(i), occluder.is_solid, occluder.is_transparent};
+        if (occluder.mesh == nullptr || occluder.mesh->indices.empty()) continue;
+        t.has_transparent = t.has_transparent || occluder.is_transparent;
+        if (!occluder.is_solid) t.largest = std::max(t.largest, largest_triangle(*occluder.mesh));
+        t.add(*occluder.mesh, t.surfaces[i]);
+    }
+    // Robust, so that no ray slips between triangles, and results do not depend on the shape of the tree.
+    constexpr unsigned k_flags = unsigned{RTC_SCENE_FLAG_ROBUST} | unsigned{Embree::k_filters_by_call};
+    // NOLINTNEXTLINE(clang-analyzer-optin.core.EnumCastOutOfRange): they are bits
+    t.embree.set_scene_flags(t.scene, static_cast<RTCSceneFlags>(k_flags));
+    t.embree.commit(t.scene);
+    if (t.embree.get_device_error(t.embree.device) != RTC_ERROR_NONE) throw std::bad_alloc();
+}
+
+OcclusionTree::OcclusionTree(OcclusionTree&&) noexcept = default;
+OcclusionTree& OcclusionTree::operator=(OcclusionTree&&) noexcept = default;
+OcclusionTree::~OcclusionTree() = default;
+
+float OcclusionTree::least_margin() const noexcept { return k_relative_margin * tree_->largest; }
+bool OcclusionTree::has_transparent() const noexcept { return tree_->has_transparent; }
+
+namespace {
+
+/// Adds the ways of a packet's rays through transparent objects. `hits` is sorted and emptied.
+void add_crossings(std::vector<TransparentHit>& hits, std::uint32_t first, const float* length,
+                   std::vector<Crossing>& crossings) {
+    const auto key = [](const TransparentHit& hit) { return std::array{hit.ray, hit.object, hit.triangle}; };
+    std::ranges::sort(hits, {}, key);
+    // A filter may be asked twice about one hit.
+    hits.erase(std::ranges::unique(hits, {}, key).begin(), hits.end());
+    for (std::size_t i = 0; i < hits.size();) {
+        const TransparentHit& hit = hits[i];
+        float inside = 0;
+        int open = 0;
+        for (; i < hits.size() && hits[i].ray == hit.ray && hits[i].object == hit.object; ++i) {
+            inside += hits[i].enters ? -hits[i].along : hits[i].along;
+            open += hits[i].enters ? 1 : -1;
+        }
+        // A light inside the object: its light leaves once more than it enters.
+        const float end = length[hit.ray];
+        if (open > 0 && std::isfinite(end)) inside += static_cast<float>(open) * end;
+        crossings.push_back({first + hit.ray, hit.object, std::max(inside, 0.0f)});
+    }
+    hits.clear();
+}
+
+}  // namespace
+
+void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
+                                 std::vector<Crossing>& crossings) const {
+    const Tree& t = *tree_;
+    std::vector<TransparentHit> hits;
+    PacketContext packet;
+    packet.object = rays.object;
+    packet.hits = &hits;
+    for (std::size_t first = 0; first < rays.count; first += k_size) {
+        const std::uint32_t* const flags = rays.flags + first;
+        float* const to = visible + first;
+        alignas(64) std::array<int, k_size> valid;
+        RTCRay16 traced;
+        multiversion<PacketLoop>(rays.origin.from(first), rays.direction.from(first), rays.length + first,
+                                 flags, &traced, valid.data());
+        if (std::ranges::any_of(valid, [](int each) { return each != 0; })) {
+            t.embree.occluded(t.scene, valid, let_pass, packet.context, traced);
+        }
+        // Embree marks a blocked ray by a negative end.
+        for (std::size_t i = 0; i < k_size; ++i) to[i] = valid[i] != 0 && traced.tfar[i] < 0 ? 0.0f : 1.0f;
+        if (hits.empty()) continue;
+        std::erase_if(hits, [&](const TransparentHit& hit) { return to[hit.ray] == 0; });
+        add_crossings(hits, static_cast<std::uint32_t>(first), rays.length + first, crossings);
+    }
+}
+
+std::optional<Blocker> OcclusionTree::find_blocker(const ShadowRays& rays, std::size_t ray) const {
+    const Tree& t = *tree_;
+    std::vector<TransparentHit> hits;
+    PacketContext packet;
+    packet.object = rays.object;
+    packet.hits = &hits;
+    alignas(64) std::array<int, k_size> valid{};
+    valid[0] = -1;
+    RTCRayHit16 traced{};
+    const Vec3 origin = rays.origin[ray], direction = rays.direction[ray];
+    traced.ray.org_x[0] = origin.x;
+    traced.ray.org_y[0] = origin.y;
+    traced.ray.org_z[0] = origin.z;
+    traced.ray.dir_x[0] = direction.x;
+    traced.ray.dir_y[0] = direction.y;
+    traced.ray.dir_z[0] = direction.z;
+    traced.ray.tfar[0] = rays.length[ray];
+    traced.ray.mask[0] = ~0u;
+    traced.ray.id[0] = rays.flags[ray];
+    traced.hit.geomID[0] = RTC_INVALID_GEOMETRY_ID;
+    t.embree.trace(t.scene, valid, let_pass, packet.context, traced);
+    if (traced.hit.geomID[0] == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Blocker{traced.hit.geomID[0], traced.hit.primID[0], traced.ray.tfar[0]};
+}
+
+}  // namespace candela

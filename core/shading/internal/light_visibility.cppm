@@ -1,0 +1,74 @@
+// Which part of a light's intensity reaches each point of a batch: the stage between lights and reflection.
+module;
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+module candela.shading:light_visibility;
+
+import :surface;
+import candela.api;
+import candela.geometry;
+import candela.raster;
+import candela.util;
+
+namespace candela {
+
+/// One sample of a light at each point of a batch.
+struct LightSample {
+    ConstVec3Span to_light;             // unit
+    const float* distance = nullptr;    // metres; infinite for a distant light
+    const float* brightness = nullptr;  // zero where the light does not shine; null: it shines everywhere
+};
+
+/// Traces rays from the points of a batch. Owns the batch's arrays: use one per thread.
+class LightVisibility {
+  public:
+    LightVisibility();
+
+    /// Sets the scene for the following calls.
+    void begin(const LightingContext& scene);
+
+    /// Sets the points for the following calls; `normal` is the shading model's. Returns whether any light
+    /// may be blocked there.
+    bool set_points(const SurfaceModels& surface, const ShadedObject& object, const SurfacePoints& points,
+                    const ConstVec3Span& normal);
+
+    /// Writes the fraction of the light, per channel, that reaches each point; 1 where it does not shine.
+    /// Valid until the next call. The three arrays are the same one if no light is coloured on its way.
+    ConstVec3Span find(const LightSample& light);
+
+    /// Like find(), of what comes from everywhere above the points: the mean over rays distributed by the
+    /// cosine around the shading normal, of which those that meet nothing within a distance are free.
+    ConstVec3Span find_ambient(const AmbientOcclusion& occlusion);
+
+    /// The triangle that blocks the light on its way to the first point.
+    std::optional<Blocker> find_blocker(const LightSample& light);
+
+    /// Where within its extent, from -1/2 to 1/2 along both edges, a light's sample is seen from each point.
+    ConstVec2Span sample_offsets(int sample);
+
+  private:
+    /// Prepares rays_ and flags_. `from_all`: also from points that face away from the light.
+    void aim(const LightSample& light, bool from_all);
+    ConstVec3Span traced();
+
+    const OcclusionTree* tree_ = nullptr;
+    std::span<const Transmitter> transmitters_;
+    bool is_varied_ = false;
+    std::uint32_t object_ = 0;
+    bool lights_below_horizon_ = false;
+    const SurfacePoints* points_ = nullptr;
+    ConstVec3Span normal_;
+    std::size_t count_ = 0;  // in whole vectors
+
+    Vec3Arrays origin_, direction_, colored_, mean_;
+    AlignedVector<float> length_, visible_, offset_x_, offset_y_;
+    AlignedVector<std::uint32_t> flags_;
+    std::vector<Crossing> crossings_;
+};
+
+}  // namespace candela
