@@ -130,6 +130,7 @@ SurfacePoints::SurfacePoints() {
         array->resize(k_batch_size + k_lanes);
     for (AlignedVector<std::uint32_t>* const array : {&pixel_x, &pixel_y})
         array->resize(k_batch_size + k_lanes);
+    coverage.resize(k_batch_size + k_lanes);
     std::ranges::fill(facing, 1.0f);
 }
 

@@ -279,6 +279,9 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
         const float* const x = positions.x.data();
         const float* const y = positions.y.data();
         multiversion<PixelLoop>(x, y, points.filled, points.pixel_x.data(), points.pixel_y.data());
+        auto to = points.coverage.begin();
+        for (const FragmentRun& run : batch.runs) to = std::fill_n(to, run.count, run.weight);
+        std::fill(to, points.coverage.begin() + static_cast<std::ptrdiff_t>(points.filled), 0.0f);
     }
     face_forward(points);
     needs.uv = false;

@@ -19,6 +19,7 @@ namespace {
 void clear_pixels(SurfacePoints& points) {
     std::ranges::fill(points.pixel_x, 0u);
     std::ranges::fill(points.pixel_y, 0u);
+    std::ranges::fill(points.coverage, 0.0f);
 }
 
 void clear_footprint(SurfacePoints& points) {

@@ -31,7 +31,9 @@ struct CANDELA_EXPORT SurfacePoints {
     Vec3Arrays barycentric;
     AlignedVector<float> facing;  // 1, or -1 where an open surface is seen from behind
     bool any_from_behind = false;
-    AlignedVector<std::uint32_t> pixel_x, pixel_y;  // filled if requested; zero where there is no pixel
+    // The pixel of a fragment, and the fraction of its samples; filled if requested, zero elsewhere.
+    AlignedVector<std::uint32_t> pixel_x, pixel_y;
+    AlignedVector<float> coverage;
     AlignedVector<float> u, v;                    // filled if requested and the mesh has them, otherwise zero
     AlignedVector<float> dudx, dvdx, dudy, dvdy;  // per pixel to the right and downwards; zero if unknown
     Vec3Arrays dpdu, dpdv;

@@ -106,6 +106,7 @@ LightingContext lighting_context(const RenderScene& scene, const Camera& camera,
             .camera = camera,
             .occlusion = scene.occlusion ? &*scene.occlusion : nullptr,
             .pattern = scene.shadow_pattern,
+            .samples = scene.image.samples,
             .transmitters = transmitters};
 }
 

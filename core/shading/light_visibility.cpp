@@ -8,7 +8,9 @@ module;
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
 module candela.shading;
@@ -57,6 +59,42 @@ struct AimLoop {
             flag |= is_below ? ShadowRays::k_from_below : 0u;
             flag |= points.facing[i] < 0.0f ? ShadowRays::k_from_behind : 0u;
             flags[i] = is_lit ? flag : 0u;
+        }
+    }
+};
+
+/// Moves points to where other samples of their pixels see the plane of their triangles, if the whole pixel
+/// sees it, and aims at the light from there.
+struct SampleLoop {
+    struct View {
+        Vec3 eye, right, down, forward;  // `right`, `down`: to the sample, at distance one or everywhere
+        bool is_perspective;
+    };
+
+    CANDELA_BATCH_LOOP static void run(View view, ConstVec3Span position, ConstVec3Span face_normal,
+                                       const float* coverage, ConstVec3Span to_light, const float* distance,
+                                       std::size_t count, Vec3Span to, Vec3Span direction, float* length) {
+        const vec3 eye(view.eye.x, view.eye.y, view.eye.z);
+        const vec3 forward(view.forward.x, view.forward.y, view.forward.z);
+        const vec3 step(view.right.x + view.down.x, view.right.y + view.down.y, view.right.z + view.down.z);
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) {
+            const vec3 p = kernel::load(position, i), n = kernel::load(face_normal, i);
+            const vec3 seen = p - eye;
+            const float depth = view.is_perspective ? kernel::dot(seen, forward) : 1.0f;
+            const vec3 across = step * depth;
+            const vec3 line = view.is_perspective ? seen + across : forward;
+            const float cosine = kernel::dot(n, line);
+            const float along = kernel::dot(n, across) / (cosine == 0.0f ? 1.0f : cosine);
+            const bool moves = coverage[i] == 1.0f && cosine != 0.0f;
+            const vec3 shift = moves ? across - line * along : vec3(0.0f);
+            const vec3 l = kernel::load(to_light, i);
+            const bool is_near = distance[i] < std::numeric_limits<float>::infinity();
+            const vec3 to_source = is_near ? l * distance[i] - shift : l;
+            const float r = kernel::sqrt(kernel::dot(to_source, to_source));
+            kernel::store(to, i, p + shift);
+            kernel::store(direction, i, r > 0.0f ? to_source * (1.0f / r) : l);
+            length[i] = is_near ? r : distance[i];
         }
     }
 };
@@ -119,8 +157,10 @@ struct ScaleLoop {
 }  // namespace
 
 LightVisibility::LightVisibility() {
-    for (Vec3Arrays* const arrays : {&origin_, &direction_, &colored_, &mean_}) arrays->resize(k_batch_size);
-    for (AlignedVector<float>* const array : {&length_, &visible_, &offset_x_, &offset_y_})
+    for (Vec3Arrays* const arrays : {&origin_, &direction_, &colored_, &mean_, &position_, &first_})
+        arrays->resize(k_batch_size);
+    for (AlignedVector<float>* const array :
+         {&length_, &visible_, &offset_x_, &offset_y_, &distance_, &brightness_})
         array->resize(k_batch_size);
     flags_.resize(k_batch_size);
 }
@@ -129,6 +169,8 @@ void LightVisibility::begin(const LightingContext& scene) {
     tree_ = scene.occlusion;
     transmitters_ = scene.transmitters;
     is_varied_ = scene.pattern == ShadowPattern::varied;
+    pattern_ = sample_pattern(scene.samples);
+    camera_ = scene.camera;
 }
 
 bool LightVisibility::set_points(const SurfaceModels& surface, const ShadedObject& object,
@@ -142,13 +184,13 @@ bool LightVisibility::set_points(const SurfaceModels& surface, const ShadedObjec
     return true;
 }
 
-void LightVisibility::aim(const LightSample& light, bool from_all) {
-    const AimLoop::Points points{.position = points_->position.span(),
+void LightVisibility::aim(const LightSample& light, const ConstVec3Span& position) {
+    const AimLoop::Points points{.position = position,
                                  .face_normal = points_->face_normal.span(),
                                  .normal = normal_,
                                  .facing = points_->facing.data(),
                                  .margin = tree_->least_margin(),
-                                 .from_all = from_all};
+                                 .from_all = lights_below_horizon_};
     if (light.brightness == nullptr) std::fill_n(visible_.begin(), count_, 1.0f);
     const float* const brightness = light.brightness != nullptr ? light.brightness : visible_.data();
     multiversion<AimLoop>(points, light.to_light, light.distance, brightness, count_, origin_.span(),
@@ -156,7 +198,57 @@ void LightVisibility::aim(const LightSample& light, bool from_all) {
 }
 
 ConstVec3Span LightVisibility::find(const LightSample& light) {
-    aim(light, lights_below_horizon_);
+    const ConstVec3Span position = points_->position.span();
+    const std::span coverage(points_->coverage.data(), points_->count);
+    if (pattern_.size() == 1 || std::ranges::none_of(coverage, [](float part) { return part == 1; }))
+        return trace(light, position);
+    // Four samples show whether the edge of a shadow may cross the pixel; only then are the others traced.
+    // From the last one on, because the outer ones are at the end.
+    constexpr int k_first = 4;
+    const int samples = static_cast<int>(pattern_.size());
+    const Vec3Span mean = mean_.span(), first = first_.span();
+    for (float* const channel : {mean.x, mean.y, mean.z}) std::fill_n(channel, count_, 0.0f);
+    std::copy_n(light.brightness, count_, brightness_.begin());
+    const LightSample rest{light.to_light, light.distance, brightness_.data()};
+    for (int k = 0; k < k_first; ++k) add_sample(rest, samples - 1 - k);
+    bool is_done = true;
+    for (std::size_t i = 0; i < count_; ++i) {
+        first.set(i, 1.0f / k_first * mean[i]);
+        const Vec3 seen = first[i];
+        const bool is_uniform = seen == Vec3{1, 1, 1} || seen == Vec3{} || points_->coverage[i] != 1;
+        if (is_uniform) brightness_[i] = 0;
+        is_done = is_done && is_uniform;
+    }
+    if (is_done || samples == k_first) return std::as_const(first_).span();
+    for (int k = k_first; k < samples; ++k) add_sample(rest, samples - 1 - k);
+    for (std::size_t i = 0; i < count_; ++i) {
+        if (brightness_[i] > 0) first.set(i, 1 / static_cast<float>(samples) * mean[i]);
+    }
+    return std::as_const(first_).span();
+}
+
+LightSample LightVisibility::from_sample(const LightSample& light, int sample) {
+    const auto [x, y] = pattern_[static_cast<std::size_t>(sample)];
+    const float per_pixel = 1 / (16 * camera_.pixels_per_unit);
+    const SampleLoop::View view{.eye = camera_.eye,
+                                .right = static_cast<float>(x - 8) * per_pixel * camera_.right,
+                                .down = static_cast<float>(8 - y) * per_pixel * camera_.up,
+                                .forward = camera_.forward,
+                                .is_perspective = camera_.projection == Projection::perspective};
+    multiversion<SampleLoop>(view, points_->position.span(), points_->face_normal.span(),
+                             points_->coverage.data(), light.to_light, light.distance, count_,
+                             position_.span(), direction_.span(), distance_.data());
+    return {std::as_const(direction_).span(), distance_.data(), light.brightness};
+}
+
+void LightVisibility::add_sample(const LightSample& light, int sample) {
+    const ConstVec3Span left = trace(from_sample(light, sample), std::as_const(position_).span());
+    const Vec3Span mean = mean_.span();
+    multiversion<AddLoop>(left, count_, mean);
+}
+
+ConstVec3Span LightVisibility::trace(const LightSample& light, const ConstVec3Span& position) {
+    aim(light, position);
     crossings_.clear();
     tree_->find_visible({.count = count_,
                          .origin = std::as_const(origin_).span(),
@@ -193,7 +285,7 @@ ConstVec3Span LightVisibility::find_ambient(const AmbientOcclusion& occlusion) {
         multiversion<HemisphereLoop>(normal_, offset.x, offset.y, static_cast<float>(k), rays, count_,
                                      direction_.span());
         const LightSample towards{std::as_const(direction_).span(), distance.data()};
-        const ConstVec3Span free = find(towards);
+        const ConstVec3Span free = trace(towards, points_->position.span());
         multiversion<AddLoop>(free, count_, mean);
     }
     const float share = 1 / rays;
@@ -202,15 +294,21 @@ ConstVec3Span LightVisibility::find_ambient(const AmbientOcclusion& occlusion) {
 }
 
 std::optional<Blocker> LightVisibility::find_blocker(const LightSample& light) {
-    aim(light, lights_below_horizon_);
-    if (flags_[0] == 0) return std::nullopt;
-    return tree_->find_blocker({.count = 1,
-                                .origin = std::as_const(origin_).span(),
-                                .direction = light.to_light,
-                                .length = length_.data(),
-                                .flags = flags_.data(),
-                                .object = object_},
-                               0);
+    for (int sample = -1; sample < static_cast<int>(pattern_.size()); ++sample) {
+        const bool is_middle = sample < 0;
+        const LightSample from = is_middle ? light : from_sample(light, sample);
+        aim(from, is_middle ? points_->position.span() : std::as_const(position_).span());
+        if (flags_[0] == 0) continue;
+        const auto blocker = tree_->find_blocker({.count = 1,
+                                                  .origin = std::as_const(origin_).span(),
+                                                  .direction = from.to_light,
+                                                  .length = length_.data(),
+                                                  .flags = flags_.data(),
+                                                  .object = object_},
+                                                 0);
+        if (blocker) return blocker;
+    }
+    return std::nullopt;
 }
 
 ConstVec2Span LightVisibility::sample_offsets(int sample) {

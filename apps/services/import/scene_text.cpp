@@ -88,6 +88,9 @@ class Writer {
         begin("[constraints]");
         add("overlap", "\"allow\"");
         end();
+        begin("[shadows]");
+        add("enabled", "true");
+        end();
     }
 
     void write_models() {

@@ -142,6 +142,12 @@ const std::vector<KernelValue>& Explanation::reflection_steps(const LightTrace& 
     return values_.at(std::ranges::find(lights_, &light, &CallsOfLight::trace)->reflect);
 }
 
+bool Explanation::may_be_blocked(const LightTrace& light) const {
+    const candela::LightSource& source = scene.lights[light.light];
+    if (!scene.shadows.enabled) return false;
+    return light.sample == LightTrace::k_ambient ? source.ambient_occlusion.rays > 0 : source.casts_shadows;
+}
+
 std::optional<double> Explanation::kernel_difference() const {
     std::optional<double> largest;
     for (const InspectedFragment& fragment : pixel.fragments) {

@@ -36,6 +36,9 @@ class Explanation {
     const std::vector<KernelValue>& light_steps(const candela::LightTrace& light) const;
     const std::vector<KernelValue>& reflection_steps(const candela::LightTrace& light) const;
 
+    /// Whether objects may block that light.
+    bool may_be_blocked(const candela::LightTrace& light) const;
+
     /// Why there are no kernel values; empty if there are some.
     const std::string& why_no_steps() const { return why_no_steps_; }
     /// The largest difference between the intensities reflected by the kernel's text, compiled here, and by

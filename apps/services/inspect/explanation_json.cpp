@@ -71,7 +71,7 @@ Json json_of(const Explanation& e, const PointTrace& point, const LightTrace& li
         result["diffuse"] = json_of(light.diffuse);
         result["specular"] = json_of(light.specular);
     }
-    if (e.scene.shadows.enabled) result["visibility"] = json_of(light.visibility);
+    if (e.may_be_blocked(light)) result["visibility"] = json_of(light.visibility);
     if (light.blocker)
         result["blocked_by"] = {{"object", e.scene.objects[light.blocker->object].label.text()},
                                 {"triangle", light.blocker->triangle},

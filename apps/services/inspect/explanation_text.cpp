@@ -139,11 +139,12 @@ class Writer {
 
     /// How much of the light is not blocked, and by what it is.
     void write_visibility(const LightTrace& light) {
-        if (!e_.scene.shadows.enabled) return;
+        if (!e_.may_be_blocked(light)) return;
         std::string remark = light.visibility == Vec3{1, 1, 1} ? "nothing is in the way" : "";
         if (light.blocker) {
             const candela::Label& label = e_.scene.objects[light.blocker->object].label;
-            remark = fmt::format("blocked by object {}, triangle {}, at {:.6g} m", label.text(),
+            remark = fmt::format("{} by object {}, triangle {}, at {:.6g} m",
+                                 light.visibility == Vec3{} ? "blocked" : "partly blocked", label.text(),
                                  light.blocker->triangle, light.blocker->distance);
         }
         value(3, "visibility", light.visibility, remark);

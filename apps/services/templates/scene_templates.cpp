@@ -35,6 +35,10 @@ height     = 500
 samples    = 8                       # per pixel: 1 is fast, 4, 8 and 16 smooth the edges
 background = [24, 26, 34]            # red, green, blue, 0 to 255 each
 
+# Objects block light. Without this table light is local, and passes through them: assumption AS3 of the lighting model.
+[shadows]
+enabled = true
+
 # How the surface between vertices is shaded: "flat" shows faces, "gouraud" shades vertices, "phong" pixels.
 [shading]
 model = "phong"

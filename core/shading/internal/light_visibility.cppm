@@ -38,35 +38,43 @@ class LightVisibility {
                     const ConstVec3Span& normal);
 
     /// Writes the fraction of the light, per channel, that reaches each point; 1 where it does not shine.
-    /// Valid until the next call. The three arrays are the same one if no light is coloured on its way.
+    /// Valid until the next call. Where a fragment covers its pixel, the mean over the pixel's samples. The
+    /// three arrays are the same one if no light is coloured on its way.
     ConstVec3Span find(const LightSample& light);
 
     /// Like find(), of what comes from everywhere above the points: the mean over rays distributed by the
     /// cosine around the shading normal, of which those that meet nothing within a distance are free.
     ConstVec3Span find_ambient(const AmbientOcclusion& occlusion);
 
-    /// The triangle that blocks the light on its way to the first point.
+    /// The triangle that blocks the light on its way to the first point, or to a sample of its pixel.
     std::optional<Blocker> find_blocker(const LightSample& light);
 
     /// Where within its extent, from -1/2 to 1/2 along both edges, a light's sample is seen from each point.
     ConstVec2Span sample_offsets(int sample);
 
   private:
-    /// Prepares rays_ and flags_. `from_all`: also from points that face away from the light.
-    void aim(const LightSample& light, bool from_all);
+    /// Like find(), from given positions of the points.
+    ConstVec3Span trace(const LightSample& light, const ConstVec3Span& position);
+    void aim(const LightSample& light, const ConstVec3Span& position);
+    /// The light, and in position_ the points, from sample number `sample` of the pixels.
+    LightSample from_sample(const LightSample& light, int sample);
+    /// Traces from there, and adds the results to mean_.
+    void add_sample(const LightSample& light, int sample);
     ConstVec3Span traced();
 
     const OcclusionTree* tree_ = nullptr;
     std::span<const Transmitter> transmitters_;
     bool is_varied_ = false;
+    std::span<const SamplePosition> pattern_;  // of the samples in a pixel
+    Camera camera_;
     std::uint32_t object_ = 0;
     bool lights_below_horizon_ = false;
     const SurfacePoints* points_ = nullptr;
     ConstVec3Span normal_;
     std::size_t count_ = 0;  // in whole vectors
 
-    Vec3Arrays origin_, direction_, colored_, mean_;
-    AlignedVector<float> length_, visible_, offset_x_, offset_y_;
+    Vec3Arrays origin_, direction_, colored_, mean_, position_, first_;
+    AlignedVector<float> length_, visible_, offset_x_, offset_y_, distance_, brightness_;
     AlignedVector<std::uint32_t> flags_;
     std::vector<Crossing> crossings_;
 };

@@ -15,8 +15,11 @@ export function project(observer, position) {
 /** The drawing that arrows are added to; it lies over the picture. */
 export const arrowLayer = () => svgElement("svg", { id: "arrows", "aria-hidden": "true" });
 
-/** Draws unit vectors at a point as named arrows into an SVG element that covers the picture. */
-export function drawArrows(svg, observer, width, height, position, vectors) {
+/**
+ * Draws unit vectors at a point as named arrows into an SVG element that covers the picture, and the way of a light's ray to where
+ * it is blocked, if it is.
+ */
+export function drawArrows(svg, observer, width, height, position, vectors, blockedAt = null) {
     svg.replaceChildren();
     svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const from = project(observer, position);
@@ -33,6 +36,14 @@ export function drawArrows(svg, observer, width, height, position, vectors) {
             svgElement("polygon", { points: `${x},${y} ${tip(0.45)} ${tip(-0.45)}` }),
             svgElement("text", { x: x + 2.6 * unit * Math.cos(angle), y: y + 2.6 * unit * Math.sin(angle) + 1.4 * unit, "font-size": 4.4 * unit, "text-anchor": "middle" }, name));
         svg.append(group);
+    }
+    const end = blockedAt === null ? null : project(observer, blockedAt);
+    if (end !== null) {
+        const [x, y] = place(end), bar = 1.4 * unit, stroke = { "stroke-width": 0.5 * unit };
+        svg.append(svgElement("g", { class: "ray" },
+            svgElement("line", { x1: x0, y1: y0, x2: x, y2: y, "stroke-dasharray": `${1.5 * unit}`, ...stroke }),
+            svgElement("line", { x1: x - bar, y1: y - bar, x2: x + bar, y2: y + bar, ...stroke }),
+            svgElement("line", { x1: x - bar, y1: y + bar, x2: x + bar, y2: y - bar, ...stroke })));
     }
     svg.append(svgElement("circle", { cx: x0, cy: y0, r: 0.9 * unit, class: "arrow-origin" }));
 }

@@ -7,6 +7,7 @@ import { queryOf } from "./options.js";
 import { layOver, onMoved } from "./overlay.js";
 import { PANE_NAMES } from "./panes.js";
 import { nameOf } from "../../../../sdk/web/scene.js";
+import { add, scale } from "../../../../sdk/web/vectors.js";
 
 const CLICK_DISTANCE = 4;  // in CSS pixels: a pointer that moves farther turns the scene
 const VECTORS = ["N", "V", "L", "R", "H"];
@@ -170,7 +171,8 @@ export class Explanation {
 
     lightParts(fragment, point, light) {
         const vectors = vectorsOf(point, light);
-        this.drawVectors(point, vectors);
+        const { blocked_by: blocker, visibility } = light;
+        this.drawVectors(point, vectors, blocker ? add(point.position, scale(light.L, blocker.distance)) : null);
         const arriving = light.ambient ? [["arriving", light.ambient]] : [["arriving, diffuse", light.diffuse], ["arriving, specular", light.specular]];
         return [
             table("Unit vectors", ["x", "y", "z"], vectors.map(([name, vector]) => row(name, ...vector.map(number)))),
@@ -178,6 +180,7 @@ export class Explanation {
             element("p", {}, `C_o = ${numbers(point.C_o)}`),
             ...this.formulas(fragment.index, point, light),
             "N.L" in light ? element("p", {}, `N·L = ${number(light["N.L"])}`) : null,
+            visibility ? element("p", { class: "visibility" }, blocker ? `Blocked by ${nameOf(blocker.object)}, triangle ${blocker.triangle}, at ${number(blocker.distance)} m` : `Visibility ${numbers(visibility)}`) : null,
             table(`Light: ${nameOf(light.light)}`, ["red", "green", "blue"],
                 [...arriving, ...["I_a", "I_d", "I_s"].map((sum) => [sum, light[sum]])].map(([name, values]) => row(name, ...values.map(number)))),
             steps(`How ${light.type} emits, step by step`, light.light_steps),
@@ -200,9 +203,9 @@ export class Explanation {
         });
     }
 
-    drawVectors(point, vectors) {
+    drawVectors(point, vectors, blockedAt = null) {
         const { width, height } = this.settings.scene.image;
-        drawArrows(this.arrows, this.settings.observer(), width, height, point.position, vectors);
+        drawArrows(this.arrows, this.settings.observer(), width, height, point.position, vectors, blockedAt);
         if (this.pictureWithArrows !== this.canvas) this.placeArrows();
     }
 
