@@ -92,6 +92,22 @@ reflection_sheet() {
     done
 }
 
+# A coarse sphere and a coarse ring whose terminator is in sight. With "naive", each is there twice: once to be seen, and once, open for light
+# in no direction, to cast shadows on the first.
+terminator_scene() {
+    sheet_head | sed '/^\[\[light\]\]/,$d; s/^width      = 1040/width      = 640/; s/^height     = 4.5/height     = 2.3/; s/^height     = 450/height     = 300/'
+    printf '[constraints]\noverlap = "allow"\n[shadows]\nenabled = true\n[[light]]\ntype = "directional"\ndirection = [-1.0, -0.55, -0.1]\n'
+    printf '[[light]]\ntype = "ambient"\nintensity = 0.3\n'
+    local copy copies=treated
+    [ "$1" != naive ] || copies='casts_shadows=false encloses=true'
+    for copy in $copies; do
+        case $copy in treated) copy= ;; *) copy="; $copy" ;; esac
+        object "type = \"sphere\"; radius = 0.9; segments = 12; color = [220, 160, 90]$copy" -1.2 0.0 phong lambert ""
+        object "type = \"torus\"; major_radius = 0.62; minor_radius = 0.3; segments = 14; rotation = [60.0, 0.0, 0.0]; color = [220, 160, 90]$copy" 1.2 0.0 \
+            phong lambert ""
+    done
+}
+
 sheet=$(mktemp --suffix=.toml)
 trap 'rm -f "$sheet"' EXIT
 contact_sheet >"$sheet"
@@ -100,6 +116,11 @@ reflection_sheet >"$sheet"
 render "$sheet" -o "$out/reflection-models.png"
 render "$root/docs/examples/still-life.toml" -o "$out/still-life.png"
 render "$root/docs/examples/glass.toml" -o "$out/glass.png"
+render "$root/docs/examples/penumbra.toml" -o "$out/penumbra.png"
+terminator_scene naive >"$sheet"
+render "$sheet" -o "$out/terminator-before.png"
+terminator_scene treated >"$sheet"
+render "$sheet" -o "$out/terminator.png"
 render --samples 16 -o "$out/default-scene.png"
 
 # The pages of models, with their pictures.

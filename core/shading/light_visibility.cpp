@@ -202,10 +202,12 @@ ConstVec3Span LightVisibility::find(const LightSample& light) {
     const std::span coverage(points_->coverage.data(), points_->count);
     if (pattern_.size() == 1 || std::ranges::none_of(coverage, [](float part) { return part == 1; }))
         return trace(light, position);
+    const int samples = static_cast<int>(pattern_.size());
+    if (light.varied >= 0)
+        return trace(from_sample(light, light.varied % samples), std::as_const(position_).span());
     // Four samples show whether the edge of a shadow may cross the pixel; only then are the others traced.
     // From the last one on, because the outer ones are at the end.
     constexpr int k_first = 4;
-    const int samples = static_cast<int>(pattern_.size());
     const Vec3Span mean = mean_.span(), first = first_.span();
     for (float* const channel : {mean.x, mean.y, mean.z}) std::fill_n(channel, count_, 0.0f);
     std::copy_n(light.brightness, count_, brightness_.begin());

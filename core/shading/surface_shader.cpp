@@ -439,7 +439,8 @@ LightSample SurfaceShader::light_at(const PunctualLight& light, int sample, cons
                                                     : ConstVec2Span{zeros_.data(), zeros_.data()};
     multiversion<PunctualLoop>(light, points.position.span(), std::as_const(normal_).span(), offset,
                                points.filled, to_light_.span(), distance_.data(), attenuation_.data());
-    return {std::as_const(to_light_).span(), distance_.data(), attenuation_.data()};
+    const bool varies = is_extended(light) && scene_.pattern == ShadowPattern::varied;
+    return {std::as_const(to_light_).span(), distance_.data(), attenuation_.data(), varies ? sample : -1};
 }
 
 std::optional<LightSample> SurfaceShader::illuminate(const RenderLight& source, int sample,

@@ -22,6 +22,7 @@ struct LightSample {
     ConstVec3Span to_light;             // unit
     const float* distance = nullptr;    // metres; infinite for a distant light
     const float* brightness = nullptr;  // zero where the light does not shine; null: it shines everywhere
+    int varied = -1;                    // its number, if the light has others, whose positions vary as well
 };
 
 /// Traces rays from the points of a batch. Owns the batch's arrays: use one per thread.
@@ -38,8 +39,9 @@ class LightVisibility {
                     const ConstVec3Span& normal);
 
     /// Writes the fraction of the light, per channel, that reaches each point; 1 where it does not shine.
-    /// Valid until the next call. Where a fragment covers its pixel, the mean over the pixel's samples. The
-    /// three arrays are the same one if no light is coloured on its way.
+    /// Valid until the next call. Where a fragment covers its pixel, the mean over the pixel's samples; a
+    /// light whose samples vary is seen by one of them each. The three arrays are the same one if no light
+    /// is coloured on its way.
     ConstVec3Span find(const LightSample& light);
 
     /// Like find(), of what comes from everywhere above the points: the mean over rays distributed by the
