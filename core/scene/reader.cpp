@@ -213,10 +213,20 @@ class Reader {
         const TableValues own = read_parameters(table, own_tables().light.schema(), context, diagnostics_);
         own_tables().light.assign(&table, own.set, light);
         auto values = read_typed("light", PluginKind::light, table, own.set, context, {});
+        if (light.ambient_occlusion.rays > 0) warn_without_ambient(table, light);
         // Its position can be checked whatever else is wrong with it.
         if (!values || !values->is_valid("position")) return;
         light.model.parameters = std::move(values->set);
         scene_.lights.push_back(std::move(light));
+    }
+
+    void warn_without_ambient(const TableNode& table, const LightSource& light) {
+        const PluginFile* const plugin = registry_.find(PluginKind::light, light.model.name);
+        if (plugin == nullptr || plugin->manifest.has_ambient) return;
+        diagnostics_.warning(
+            table.find("ambient_occlusion_rays")->key_place,
+            fmt::format("'ambient_occlusion_rays' has no effect: light/{} has no ambient part",
+                        light.model.name));
     }
 
     void read_object(const TableNode& table, const SourceLocation& place, std::size_t index,

@@ -114,13 +114,17 @@ Received received_in(const RenderScene& scene, const Camera& camera) {
     return receivers.received;
 }
 
-std::string unlit(const Received& r) {
+std::string unlit(const Received& r, bool has_shadows) {
     if (r.ambient == 0 && r.sent == 0) {
         return "no light reaches an object; check the intensities and colours of the lights, and the "
                "directions of spots";
     }
     if (r.ambient == 0 && r.faced == 0)
         return "every light is behind every face that the observer sees; move a light to the observer's side";
+    if (has_shadows)
+        return "the objects block all light that would reach a face, or reflect none of it; --no-shadows "
+               "shows "
+               "which";
     return "the objects reflect none of the light; check their colours, ka, kd and ks";
 }
 
@@ -149,7 +153,7 @@ std::string darkness_diagnosis(const RenderScene& scene, const Film& film,
     const Camera camera = camera_of(scene.observer, film.width(), film.height());
     if (statistics.pixels_shaded == 0) return unseen(scene, camera);
     const Received received = received_in(scene, camera);
-    if (statistics.brightest <= 0) return unlit(received);
+    if (statistics.brightest <= 0) return unlit(received, scene.occlusion.has_value());
     const float arriving = std::max(received.ambient, received.faced);
     // The tail of a highlight on an otherwise black surface: brighter lights would not help.
     constexpr float k_next_to_nothing = 1e-3f;
