@@ -81,6 +81,7 @@ using candela::Vec3Span;
 
 // candela/parallel.h
 using candela::available_threads;
+using candela::current_threads;
 using candela::FunctionRef;
 using candela::parallel_for;
 using candela::with_threads;

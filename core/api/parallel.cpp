@@ -102,9 +102,11 @@ void with_threads(int threads, FunctionRef<> work, double milliseconds) {
     hand_over([&](auto in_worker) { arena.execute([&] { in_worker([&] { work(); }); }); });
 }
 
+int current_threads() noexcept { return is_alone ? 1 : tbb::this_task_arena::max_concurrency(); }
+
 void parallel_for(std::size_t count, std::size_t grain, FunctionRef<std::size_t, std::size_t> body) {
     if (count == 0) return;
-    if (is_alone || count <= grain || tbb::this_task_arena::max_concurrency() == 1) return body(0, count);
+    if (count <= grain || current_threads() == 1) return body(0, count);
     hand_over([&](auto in_worker) {
         tbb::parallel_for(
             tbb::blocked_range<std::size_t>(0, count, grain),

@@ -50,7 +50,9 @@ Embree::Embree() : library(loaded()), device(new_device("set_affinity=0")) {
     if (device == nullptr) throw std::bad_alloc();
 }
 
-void Embree::commit(RTCScene scene) const {
+void Embree::commit(RTCScene scene, bool in_parallel) const {
+    // Embree's tasks run in the arena of the thread that calls it.
+    if (in_parallel && current_threads() > 1) return commit_scene(scene);
     // If an arena for one thread had two, oneTBB would let one work for the other. Never destroyed: threads
     // may still be working while the process exits.
     static auto& arenas = *new Pool<tbb::task_arena>;

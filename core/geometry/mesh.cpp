@@ -39,8 +39,7 @@ std::uint64_t memory_for(const MeshLayout& layout) {
                                   (layout.has_derivatives ? 2u : 0u) + (layout.has_color ? 1u : 0u);
     constexpr std::uint64_t k_vector = 3 * sizeof(float);
     constexpr std::uint64_t k_triangle = 3 * sizeof(std::uint32_t) + k_vector + 40;  // projected
-    const bool is_counted =
-        layout.closedness == Closedness::closed || layout.closedness == Closedness::one_sided;
+    const bool is_counted = layout.closedness != Closedness::unknown && layout.closedness != Closedness::open;
     const std::uint64_t edges = is_counted ? 0 : 3 * 8;
     return layout.vertices * vectors * k_vector + layout.triangles * (k_triangle + edges);
 }
@@ -336,7 +335,8 @@ PlacedShape place(const Shape& shape, const MeshRequest& request, const Transfor
         transform(collected.authored_normal, linear.inverse().transpose(), Eigen::Vector3f::Zero());
         normalize(collected.authored_normal);
     }
-    if (collected.closedness == Closedness::closed) {
+    mesh.is_convex = collected.closedness == Closedness::convex;
+    if (mesh.is_convex || collected.closedness == Closedness::closed) {
         mesh.closed = true;
     } else {
         mesh.one_sided = collected.closedness == Closedness::one_sided;

@@ -172,7 +172,7 @@ OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::m
     constexpr unsigned k_flags = unsigned{RTC_SCENE_FLAG_ROBUST} | unsigned{Embree::k_filters_by_call};
     // NOLINTNEXTLINE(clang-analyzer-optin.core.EnumCastOutOfRange): they are bits
     t.embree.set_scene_flags(t.scene, static_cast<RTCSceneFlags>(k_flags));
-    t.embree.commit(t.scene);
+    t.embree.commit(t.scene, true);
     if (t.embree.get_device_error(t.embree.device) != RTC_ERROR_NONE) throw std::bad_alloc();
 }
 

@@ -40,8 +40,9 @@ struct Embree {
     /// The number of rays that are traced together.
     static constexpr std::size_t k_packet_size = 16;
 
-    /// Builds the scene's tree on this thread alone, so that it does not depend on the number of threads.
-    void commit(RTCScene scene) const;
+    /// Builds the scene's tree: on this thread alone, so that it does not depend on the number of threads, or
+    /// with as many as a parallel_for() would use.
+    void commit(RTCScene scene, bool in_parallel = false) const;
 
     /// The scene flag that lets trace() use a filter.
 #if RTC_VERSION_MAJOR >= 4

@@ -36,6 +36,9 @@ class FunctionRef {
 CANDELA_EXPORT void with_threads(int threads, FunctionRef<> work,
                                  double milliseconds = std::numeric_limits<double>::infinity());
 
+/// The number of threads that a parallel_for() may use here.
+CANDELA_EXPORT int current_threads() noexcept;
+
 /// Calls `body(begin, end)` for ranges that partition [0, count), each of at least `grain` elements except
 /// the last. An exception ends the work and is rethrown here. If the work fits into one grain, or only one
 /// thread is available, no other thread is started.

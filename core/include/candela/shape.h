@@ -33,6 +33,7 @@ enum class Closedness : int {
     closed,     // every edge is shared by two triangles that agree on which side is outside
     open,       // visible from both sides
     one_sided,  // visible only from the front, open or not: a room that is viewed through its walls
+    convex,     // closed, and no line crosses it more than twice: it casts no shadow on itself
 };
 
 /// The arrays that a shape requests.

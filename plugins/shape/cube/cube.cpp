@@ -25,7 +25,7 @@ class Cube final : public candela::Shape {
                                                        .triangles = 12,
                                                        .has_uv = request.uv,
                                                        .has_derivatives = request.derivatives,
-                                                       .closedness = candela::Closedness::closed});
+                                                       .closedness = candela::Closedness::convex});
         std::uint32_t vertex = 0;
         std::size_t corner = 0;
         for (const Face& face : k_faces) {

@@ -9,7 +9,7 @@ using namespace candela::sdk;
 
 namespace {
 
-constexpr Topology k_topology{.u_is_periodic = true, .v_ends_in_poles = true};
+constexpr Topology k_topology{.u_is_periodic = true, .v_ends_in_poles = true, .is_convex = true};
 
 constexpr auto k_fields =
     fields(real(&SphereShape::radius, "radius", 0.5f, "radius").above(0).unit("m"),

@@ -156,6 +156,34 @@ TEST_CASE("closed, if declared: every edge lies between two triangles that agree
     }
 }
 
+TEST_CASE("convex, if laid out as such: no vertex is above the plane of a triangle", "[shape]") {
+    skip_if_it_needs_a_file();
+    bool is_ever_convex = false;
+    for (const Values& values : many_values(4)) {
+        const Mesh mesh = mesh_of(values);
+        if (!mesh.is_convex) continue;
+        is_ever_convex = true;
+        const auto p = mesh.position.span();
+        const Vec3 size = mesh.bounds.high - mesh.bounds.low;
+        const double tolerance = 1e-5 * std::max({size.x, size.y, size.z});
+        // Some of them, so that it takes no longer than the others.
+        const std::size_t step = 3 * (1 + mesh.triangle_count() / 500),
+                          stride = 1 + mesh.vertex_count() / 500;
+        for (std::size_t t = 0; t < mesh.indices.size(); t += step) {
+            const Vec3 a = p[mesh.indices[t]];
+            const Vec3 normal =
+                candela::normalized(cross(p[mesh.indices[t + 1]] - a, p[mesh.indices[t + 2]] - a));
+            for (std::size_t i = 0; i < mesh.vertex_count(); i += stride) {
+                const double above = double{dot(normal, p[i] - a)};
+                if (above > tolerance)
+                    FAIL("vertex " << i << " is " << above << " m above triangle " << t / 3 << ", with "
+                                   << values.text);
+            }
+        }
+    }
+    if (!is_ever_convex) SKIP("it is not");
+}
+
 TEST_CASE("Euler characteristic, as declared", "[shape]") {
     skip_if_it_needs_a_file();
     const std::string declared_number = declared("euler-characteristic");

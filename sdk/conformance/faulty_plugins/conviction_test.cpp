@@ -143,6 +143,7 @@ TEST_CASE("the kit names the fault of each faulty plugin, and its exit code is 4
          "where interpolated normals, derivatives or edges vanish"},
         {"shading-last-face-wins", "order", "failed", "with another numbering"},
         {"shading-denies-its-weights", "defaults", "failed", "declares default_vertex_normals"},
+        {"shape-claims-to-be-convex", "convex", "failed", "m above triangle"},
         {"shape-inside-out", "closed", "failed", "it is inside out"},
         {"shape-hole-in-it", "closed", "failed", "3 edges that do not lie between two triangles"},
         {"light-long-directions", "directions", "failed", "a direction of length"},

@@ -34,6 +34,7 @@ struct Topology {
     bool u_is_periodic = false;  // u = 0 and u = 1 are the same edge
     bool v_is_periodic = false;
     bool v_ends_in_poles = false;  // v = 0 and v = 1 are single points
+    bool is_convex = false;        // closed, and convex for all parameters
 };
 
 template <class Params, auto position>
@@ -72,7 +73,9 @@ void tessellate_surface(const Params& params, Topology topology, std::size_t col
                                           .has_uv = request.uv,
                                           .has_derivatives = request.derivatives,
                                           .has_smooth_groups = true,
-                                          .closedness = closed ? Closedness::closed : Closedness::open});
+                                          .closedness = topology.is_convex ? Closedness::convex
+                                                        : closed           ? Closedness::closed
+                                                                           : Closedness::open});
 
     for (std::size_t row = 0; row <= rows; ++row) {
         const std::size_t first = row * width;
