@@ -128,7 +128,7 @@ SurfacePoints::SurfacePoints() {
     }
     for (AlignedVector<float>* const array : {&facing, &u, &v, &dudx, &dvdx, &dudy, &dvdy})
         array->resize(k_batch_size + k_lanes);
-    for (AlignedVector<std::uint32_t>* const array : {&pixel_x, &pixel_y})
+    for (AlignedVector<std::uint32_t>* const array : {&pixel_x, &pixel_y, &triangle})
         array->resize(k_batch_size + k_lanes);
     coverage.resize(k_batch_size + k_lanes);
     std::ranges::fill(facing, 1.0f);

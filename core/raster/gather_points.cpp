@@ -22,6 +22,11 @@ void clear_pixels(SurfacePoints& points) {
     std::ranges::fill(points.coverage, 0.0f);
 }
 
+void set_triangles(PointNeeds needs, std::span<const std::uint32_t> triangles, SurfacePoints& points) {
+    points.has_triangle = needs.triangle_index;
+    if (needs.triangle_index) std::ranges::copy(triangles, points.triangle.begin());
+}
+
 void clear_footprint(SurfacePoints& points) {
     for (AlignedVector<float>* const array : {&points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
         std::ranges::fill(*array, 0.0f);
@@ -68,6 +73,7 @@ void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> tr
     points.has_color = needs.color = needs.color && !source.mesh.color.empty();
     points.count = triangles.size();
     face_forward(points);
+    set_triangles(needs, triangles, points);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         evaluate_point(source.mesh, triangles[i], {k_third, k_third, k_third}, needs, i, points);
         const bool is_back = source.is_back(triangles[i]);
@@ -82,6 +88,7 @@ void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles, C
     points.has_color = needs.color = needs.color && !mesh.color.empty();
     points.count = points.filled = triangles.size();
     face_forward(points);
+    set_triangles(needs, triangles, points);
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         evaluate_point(mesh, triangles[i], barycentric[i], needs, i, points);
     }
@@ -93,6 +100,7 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
     needs.triangle = false;
     points.has_color = needs.color = needs.color && !mesh.color.empty();
     points.count = vertices.size();
+    points.has_triangle = false;
     face_forward(points);
     for (std::size_t i = 0; i < vertices.size(); ++i) {
         const std::uint32_t v = vertices[i].vertex;

@@ -34,6 +34,8 @@ struct CANDELA_EXPORT SurfacePoints {
     // The pixel of a fragment, and the fraction of its samples; filled if requested, zero elsewhere.
     AlignedVector<std::uint32_t> pixel_x, pixel_y;
     AlignedVector<float> coverage;
+    AlignedVector<std::uint32_t> triangle;        // filled if has_triangle
+    bool has_triangle = false;                    // each point lies on one triangle, and it was requested
     AlignedVector<float> u, v;                    // filled if requested and the mesh has them, otherwise zero
     AlignedVector<float> dudx, dvdx, dudy, dvdy;  // per pixel to the right and downwards; zero if unknown
     Vec3Arrays dpdu, dpdv;
@@ -51,8 +53,9 @@ struct PointNeeds {
     bool barycentric = true;
     bool color = true;  // of a mesh that has colours
     bool uv = false;
-    bool pixel = false;      // of fragments
-    bool footprint = false;  // how uv change from pixel to pixel; with uv, at fragments
+    bool pixel = false;           // of fragments
+    bool triangle_index = false;  // of fragments, faces and places; vertices have none
+    bool footprint = false;       // how uv change from pixel to pixel; with uv, at fragments
     bool derivatives = false;
     bool triangle = false;  // of fragments, faces and places; vertices have none
 

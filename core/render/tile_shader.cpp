@@ -120,8 +120,9 @@ ShadedObject shaded_object(const RenderScene& scene, std::uint32_t index) {
 
 PointNeeds needs_of(const RenderScene& scene, const SurfaceModels& surface) {
     PointNeeds needs = surface.needs();
-    needs.pixel = scene.occlusion.has_value();
-    needs.face_normal |= needs.pixel;
+    const bool has_shadows = scene.occlusion.has_value();
+    needs.pixel = needs.triangle_index = has_shadows;
+    needs.face_normal |= has_shadows;
     return needs;
 }
 

@@ -35,6 +35,7 @@ struct AimLoop {
         const float* facing;
         float margin;   // at least
         bool from_all;  // also where the shading normal faces away
+        std::uint32_t count;
     };
 
     CANDELA_BATCH_LOOP static void run(Points points, ConstVec3Span to_light, const float* distance,
@@ -54,7 +55,9 @@ struct AimLoop {
             const float to = distance[i] * 0.9999990f - 2.0f * margin;
             length[i] = to;
             const bool faces = kernel::max(kernel::dot(kernel::load(points.normal, i), l), always) > 0.0f;
-            const bool is_lit = faces && brightness[i] > 0.0f && to > 0.0f;
+            // A faulty plugin's direction must not reach Embree, and a point that is not there needs no ray.
+            const bool is_sound = kernel::dot(l, l) < 4.0f && static_cast<std::uint32_t>(i) < points.count;
+            const bool is_lit = faces && is_sound && brightness[i] > 0.0f && to > 0.0f;
             std::uint32_t flag = ShadowRays::k_traced;
             flag |= is_below ? ShadowRays::k_from_below : 0u;
             flag |= points.facing[i] < 0.0f ? ShadowRays::k_from_behind : 0u;
@@ -139,6 +142,22 @@ struct HemisphereLoop {
     }
 };
 
+/// Whether the normal turns away from a light as one moves towards it across a triangle: the surface that the
+/// triangle stands for is hollow there.
+bool is_hollow(const Mesh& mesh, std::uint32_t triangle, float facing, Vec3 to_light) {
+    const MeshVertex* corner[3];
+    for (std::size_t k = 0; k < 3; ++k)
+        corner[k] = &mesh.vertices[mesh.indices[3 * std::size_t{triangle} + k]];
+    // The gradient of N.L times L, up to a positive factor.
+    const Vec3 aside = cross(to_light, mesh.face_normal.span()[triangle]);
+    float turn = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 opposite = corner[(k + 2) % 3]->position - corner[(k + 1) % 3]->position;
+        turn += dot(opposite, aside) * dot(corner[k]->normal, to_light);
+    }
+    return facing * turn < 0;
+}
+
 struct AddLoop {
     CANDELA_BATCH_LOOP static void run(ConstVec3Span each, std::size_t count, Vec3Span sum) {
         CANDELA_VECTORIZE
@@ -176,6 +195,7 @@ void LightVisibility::begin(const LightingContext& scene) {
 bool LightVisibility::set_points(const SurfaceModels& surface, const ShadedObject& object,
                                  const SurfacePoints& points, const ConstVec3Span& normal) {
     if (tree_ == nullptr || !object.receives_shadows) return false;
+    mesh_ = object.mesh;
     object_ = object.index;
     lights_below_horizon_ = surface.lights_below_horizon;
     points_ = &points;
@@ -190,11 +210,24 @@ void LightVisibility::aim(const LightSample& light, const ConstVec3Span& positio
                                  .normal = normal_,
                                  .facing = points_->facing.data(),
                                  .margin = tree_->least_margin(),
-                                 .from_all = lights_below_horizon_};
+                                 .from_all = lights_below_horizon_,
+                                 .count = static_cast<std::uint32_t>(points_->count)};
     if (light.brightness == nullptr) std::fill_n(visible_.begin(), count_, 1.0f);
     const float* const brightness = light.brightness != nullptr ? light.brightness : visible_.data();
     multiversion<AimLoop>(points, light.to_light, light.distance, brightness, count_, origin_.span(),
                           length_.data(), flags_.data());
+    if (points_->has_triangle && !mesh_->is_faceted) lift_from_hollows(light.to_light, position);
+}
+
+void LightVisibility::lift_from_hollows(const ConstVec3Span& to_light, const ConstVec3Span& position) {
+    for (std::size_t i = 0; i < points_->count; ++i) {
+        if ((flags_[i] & ShadowRays::k_from_below) == 0) continue;
+        const Vec3 l = to_light[i], p = position[i];
+        if (!(dot(normal_[i], l) > 0) || !is_hollow(*mesh_, points_->triangle[i], points_->facing[i], l))
+            continue;
+        flags_[i] &= ~ShadowRays::k_from_below;
+        origin_.span().set(i, 2.0f * p - std::as_const(origin_).span()[i]);
+    }
 }
 
 ConstVec3Span LightVisibility::find(const LightSample& light) {

@@ -62,6 +62,9 @@ class LightVisibility {
     LightSample from_sample(const LightSample& light, int sample);
     /// Traces from there, and adds the results to mean_.
     void add_sample(const LightSample& light, int sample);
+    /// Starts rays above the surface where it is hollow, so that it blocks light that faces its normal but
+    /// not its triangle: the surface rises towards the light.
+    void lift_from_hollows(const ConstVec3Span& to_light, const ConstVec3Span& position);
     ConstVec3Span traced();
 
     const OcclusionTree* tree_ = nullptr;
@@ -70,6 +73,7 @@ class LightVisibility {
     std::span<const SamplePosition> pattern_;  // of the samples in a pixel
     Camera camera_;
     std::uint32_t object_ = 0;
+    const Mesh* mesh_ = nullptr;  // of the object
     bool lights_below_horizon_ = false;
     const SurfacePoints* points_ = nullptr;
     ConstVec3Span normal_;
