@@ -13,6 +13,7 @@ module;
 #include <new>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 module candela.geometry;
@@ -31,24 +32,36 @@ static_assert(k_size == Embree::k_packet_size);
 /// Embree's tree takes this many bytes per triangle, as measured; its largest, while it is being built.
 constexpr std::uint64_t k_bytes_per_triangle = 250;
 
+/// Where several triangles meet, Embree's answer depends on the packet's other rays. This close to an edge,
+/// in barycentric coordinates, a ray is traced on its own.
+constexpr float k_near_edge = 0x1p-12f;
+
+/// Hits of a closed object in one sense are the same crossing, of an edge, if they are this close to each
+/// other, relative to their distance.
+constexpr float k_same_edge = 0x1p-10f;
+
 /// Embree passes it to the filter with each hit of the surface.
 struct Surface {
     std::uint32_t object = 0;
     bool is_solid = false;
     bool is_transparent = false;
+    bool has_inside = false;
 };
 
 /// A hit of a transparent object: rays meet its surface in pairs.
 struct TransparentHit {
-    std::uint32_t ray, object, triangle;
+    std::uint32_t ray, object;
     float along;  // the ray, in multiples of its direction
-    bool enters;
+    bool enters, is_near_edge;
+    std::uint32_t triangle;
 };
 
 /// The filter's knowledge of a packet. Its beginning is Embree's own.
 struct PacketContext {
     Embree::RayContext context{};
     std::uint32_t object = 0;  // on which the rays start
+    bool is_one_ray = false;
+    mutable std::uint32_t near_edges = 0;  // a bit for each ray that is to be traced on its own
     std::vector<TransparentHit>* hits = nullptr;
 };
 
@@ -61,26 +74,37 @@ float leaving(const RTCFilterFunctionNArguments* hits, unsigned i) {
            RTCRayN_dir_z(hits->ray, count, i) * RTCHitN_Ng_z(hits->hit, count, i);
 }
 
+bool is_near_edge(const RTCFilterFunctionNArguments* hits, unsigned i) {
+    const float u = RTCHitN_u(hits->hit, hits->N, i), v = RTCHitN_v(hits->hit, hits->N, i);
+    return std::min({u, v, 1 - u - v}) < k_near_edge;
+}
+
+/// Whether the surface blocks a ray that hits it.
+bool is_blocking(const Surface& surface, bool is_own, std::uint32_t flags, float cosine) {
+    if (surface.is_solid) return cosine < 0;
+    if (!is_own || (flags & ShadowRays::k_from_below) == 0) return true;
+    return (flags & ShadowRays::k_from_behind) != 0 ? cosine > 0 : cosine < 0;
+}
+
 /// Lets light pass where it leaves a solid object, or its own; and through transparent ones.
 void let_pass(const RTCFilterFunctionNArguments* hits) {
     const auto& surface = *static_cast<const Surface*>(hits->geometryUserPtr);
     const auto& packet = *reinterpret_cast<const PacketContext*>(hits->context);
     const bool is_own = surface.object == packet.object;
-    if (!surface.is_solid && !is_own && !surface.is_transparent) return;
     for (unsigned i = 0; i < hits->N; ++i) {
         if (hits->valid[i] == 0) continue;
         const float cosine = leaving(hits, i);
-        const unsigned id = RTCRayN_id(hits->ray, hits->N, i);
-        if (surface.is_transparent) {
-            packet.hits->push_back({static_cast<std::uint32_t>(id % k_size), surface.object,
-                                    RTCHitN_primID(hits->hit, hits->N, i),
-                                    RTCRayN_tfar(hits->ray, hits->N, i), cosine < 0});
+        const std::uint32_t id = RTCRayN_id(hits->ray, hits->N, i), ray = id % k_size;
+        const bool is_blocked = !surface.is_transparent && is_blocking(surface, is_own, id, cosine);
+        if (!is_blocked) hits->valid[i] = 0;
+        if (!is_blocked && !(surface.is_transparent && surface.has_inside)) continue;
+        const bool is_at_edge = is_near_edge(hits, i);
+        if (is_at_edge && !packet.is_one_ray) {
+            packet.near_edges |= 1u << ray;
             hits->valid[i] = 0;
-        } else if (surface.is_solid) {
-            if (!(cosine < 0)) hits->valid[i] = 0;
-        } else if ((id & ShadowRays::k_from_below) != 0) {
-            const bool is_behind = (id & ShadowRays::k_from_behind) != 0;
-            if (is_behind ? cosine <= 0 : cosine >= 0) hits->valid[i] = 0;
+        } else if (!is_blocked) {
+            packet.hits->push_back({ray, surface.object, RTCRayN_tfar(hits->ray, hits->N, i), cosine < 0,
+                                    is_at_edge, RTCHitN_primID(hits->hit, hits->N, i)});
         }
     }
 }
@@ -136,6 +160,9 @@ struct OcclusionTree::Tree {
     ~Tree() { embree.release_scene(scene); }
 
     void add(const Mesh& mesh, Surface& surface) const;
+
+    /// Whether a ray is blocked if it is traced on its own. Adds its hits of transparent objects.
+    bool is_blocked(const ShadowRays& rays, std::size_t ray, std::vector<TransparentHit>& hits) const;
 };
 
 void OcclusionTree::Tree::add(const Mesh& mesh, Surface& surface) const {
@@ -162,8 +189,11 @@ OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::m
     t.surfaces.resize(occluders.size());
     for (std::size_t i = 0; i < occluders.size(); ++i) {
         const Occluder& occluder = occluders[i];
-        t.surfaces[i] = {static_cast<std::uint32_t>(i), occluder.is_solid, occluder.is_transparent};
         if (occluder.mesh == nullptr || occluder.mesh->indices.empty()) continue;
+        t.surfaces[i] = {.object = static_cast<std::uint32_t>(i),
+                         .is_solid = occluder.is_solid,
+                         .is_transparent = occluder.is_transparent,
+                         .has_inside = occluder.mesh->open_edges == 0};
         t.has_transparent = t.has_transparent || occluder.is_transparent;
         if (!occluder.is_solid) t.largest = std::max(t.largest, largest_triangle(*occluder.mesh));
         t.add(*occluder.mesh, t.surfaces[i]);
@@ -185,13 +215,32 @@ bool OcclusionTree::has_transparent() const noexcept { return tree_->has_transpa
 
 namespace {
 
+/// Removes all but one of the hits of a ray and an object, sorted by their distance, that are the same
+/// crossing of an edge; and those that only touch it.
+void merge_edges(std::vector<TransparentHit>& hits) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < hits.size();) {
+        const TransparentHit first = hits[i];
+        bool enters = first.enters, leaves = !first.enters;
+        for (++i; i < hits.size() && first.is_near_edge && hits[i].is_near_edge && hits[i].ray == first.ray &&
+                  hits[i].object == first.object && hits[i].along - first.along <= k_same_edge * first.along;
+             ++i)
+            (hits[i].enters ? enters : leaves) = true;
+        if (enters != leaves) hits[kept++] = first;
+    }
+    hits.resize(kept);
+}
+
 /// Adds the ways of a packet's rays through transparent objects. `hits` is sorted and emptied.
 void add_crossings(std::vector<TransparentHit>& hits, std::uint32_t first, const float* length,
                    std::vector<Crossing>& crossings) {
-    const auto key = [](const TransparentHit& hit) { return std::array{hit.ray, hit.object, hit.triangle}; };
+    const auto key = [](const TransparentHit& hit) {
+        return std::tuple(hit.ray, hit.object, hit.along, hit.triangle);
+    };
     std::ranges::sort(hits, {}, key);
     // A filter may be asked twice about one hit.
     hits.erase(std::ranges::unique(hits, {}, key).begin(), hits.end());
+    merge_edges(hits);
     for (std::size_t i = 0; i < hits.size();) {
         const TransparentHit& hit = hits[i];
         float inside = 0;
@@ -208,7 +257,36 @@ void add_crossings(std::vector<TransparentHit>& hits, std::uint32_t first, const
     hits.clear();
 }
 
+/// Sets the first ray of an empty packet.
+void set_ray(const ShadowRays& rays, std::size_t ray, RTCRay16& packet) {
+    const Vec3 origin = rays.origin[ray], direction = rays.direction[ray];
+    packet.org_x[0] = origin.x;
+    packet.org_y[0] = origin.y;
+    packet.org_z[0] = origin.z;
+    packet.dir_x[0] = direction.x;
+    packet.dir_y[0] = direction.y;
+    packet.dir_z[0] = direction.z;
+    packet.tfar[0] = rays.length[ray];
+    packet.mask[0] = ~0u;
+    packet.id[0] = rays.flags[ray] | static_cast<std::uint32_t>(ray % k_size);
+}
+
+/// The mask of a packet whose first ray alone is active.
+alignas(64) constexpr std::array<int, k_size> k_one_ray{-1};
+
 }  // namespace
+
+bool OcclusionTree::Tree::is_blocked(const ShadowRays& rays, std::size_t ray,
+                                     std::vector<TransparentHit>& hits) const {
+    PacketContext context;
+    context.object = rays.object;
+    context.is_one_ray = true;
+    context.hits = &hits;
+    RTCRay16 traced{};
+    set_ray(rays, ray, traced);
+    embree.occluded(scene, k_one_ray, let_pass, context.context, traced);
+    return traced.tfar[0] < 0;
+}
 
 void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
                                  std::vector<Crossing>& crossings) const {
@@ -224,11 +302,22 @@ void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
         RTCRay16 traced;
         multiversion<PacketLoop>(rays.origin.from(first), rays.direction.from(first), rays.length + first,
                                  flags, &traced, valid.data());
-        if (std::ranges::any_of(valid, [](int each) { return each != 0; })) {
-            t.embree.occluded(t.scene, valid, let_pass, packet.context, traced);
+        if (std::ranges::all_of(valid, [](int each) { return each == 0; })) {
+            std::fill_n(to, k_size, 1.0f);
+            continue;
         }
+        packet.near_edges = 0;
+        t.embree.occluded(t.scene, valid, let_pass, packet.context, traced);
         // Embree marks a blocked ray by a negative end.
         for (std::size_t i = 0; i < k_size; ++i) to[i] = valid[i] != 0 && traced.tfar[i] < 0 ? 0.0f : 1.0f;
+        if (packet.near_edges != 0) {
+            std::erase_if(hits,
+                          [&](const TransparentHit& hit) { return (packet.near_edges >> hit.ray & 1) != 0; });
+            for (std::size_t i = 0; i < k_size; ++i) {
+                if ((packet.near_edges >> i & 1) != 0 && to[i] != 0 && t.is_blocked(rays, first + i, hits))
+                    to[i] = 0;
+            }
+        }
         if (hits.empty()) continue;
         std::erase_if(hits, [&](const TransparentHit& hit) { return to[hit.ray] == 0; });
         add_crossings(hits, static_cast<std::uint32_t>(first), rays.length + first, crossings);
@@ -238,24 +327,14 @@ void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
 std::optional<Blocker> OcclusionTree::find_blocker(const ShadowRays& rays, std::size_t ray) const {
     const Tree& t = *tree_;
     std::vector<TransparentHit> hits;
-    PacketContext packet;
-    packet.object = rays.object;
-    packet.hits = &hits;
-    alignas(64) std::array<int, k_size> valid{};
-    valid[0] = -1;
+    PacketContext context;
+    context.object = rays.object;
+    context.is_one_ray = true;
+    context.hits = &hits;
     RTCRayHit16 traced{};
-    const Vec3 origin = rays.origin[ray], direction = rays.direction[ray];
-    traced.ray.org_x[0] = origin.x;
-    traced.ray.org_y[0] = origin.y;
-    traced.ray.org_z[0] = origin.z;
-    traced.ray.dir_x[0] = direction.x;
-    traced.ray.dir_y[0] = direction.y;
-    traced.ray.dir_z[0] = direction.z;
-    traced.ray.tfar[0] = rays.length[ray];
-    traced.ray.mask[0] = ~0u;
-    traced.ray.id[0] = rays.flags[ray];
+    set_ray(rays, ray, traced.ray);
     traced.hit.geomID[0] = RTC_INVALID_GEOMETRY_ID;
-    t.embree.trace(t.scene, valid, let_pass, packet.context, traced);
+    t.embree.trace(t.scene, k_one_ray, let_pass, context.context, traced);
     if (traced.hit.geomID[0] == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return Blocker{traced.hit.geomID[0], traced.hit.primID[0], traced.ray.tfar[0]};
 }

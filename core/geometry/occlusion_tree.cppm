@@ -62,7 +62,9 @@ struct Blocker {
 ///
 /// A surface does not block light that leaves its own object: where the shading normal faces a light and the
 /// triangle does not, the ray passes through the inside of the object. That smooths the terminator of coarse
-/// meshes without moving the rays' origins (compare Hanika 2021, "Hacking the shadow terminator").
+/// meshes without moving the rays' origins (compare Hanika 2021, "Hacking the shadow terminator"). It is for
+/// the caller to let such rays start below the surface only where it bulges; where it is hollow, light would
+/// leak through it.
 class CANDELA_EXPORT OcclusionTree {
   public:
     static constexpr std::size_t k_packet = 16;
