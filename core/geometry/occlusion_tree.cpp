@@ -1,5 +1,6 @@
 module;
 
+#include "candela/kernel/kernel.h"
 #include "candela/kernel/simd_dispatch.h"
 #include "internal/embree_headers.h"
 
@@ -40,12 +41,17 @@ constexpr float k_near_edge = 0x1p-12f;
 /// other, relative to their distance.
 constexpr float k_same_edge = 0x1p-10f;
 
+/// With more objects, it is cheaper to trace all rays of a convex one.
+constexpr std::size_t k_most_boxes = 32;
+
 /// Embree passes it to the filter with each hit of the surface.
 struct Surface {
     std::uint32_t object = 0;
     bool is_solid = false;
     bool is_transparent = false;
     bool has_inside = false;
+    bool is_convex = false;
+    std::optional<Box> bounds{};  // nothing if it casts no shadow
 };
 
 /// A hit of a transparent object: rays meet its surface in pairs.
@@ -132,6 +138,53 @@ struct PacketLoop {
     }
 };
 
+/// Turns off the rays that meet no box: those of a convex object, which does not block its own light.
+/// `boxes`: of the others.
+struct CullLoop {
+    CANDELA_BATCH_LOOP static void run(const RTCRay16* rays, const Box* boxes, std::size_t count,
+                                       int* valid) {
+        alignas(64) float inverse[3][k_size];
+        alignas(64) int reaches[k_size] = {};
+        const float* const direction[3] = {rays->dir_x, rays->dir_y, rays->dir_z};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            CANDELA_VECTORIZE_SIXTEEN
+            for (std::size_t i = 0; i < k_size; ++i) {
+                const float d = direction[axis][i];
+                const float small = d < 0.0f ? -1.0e-30f : 1.0e-30f;
+                inverse[axis][i] = 1.0f / (kernel::abs(d) < 1.0e-30f ? small : d);
+            }
+        }
+        for (const Box *box = boxes, *const end = boxes + count; box != end; ++box) {
+            const Vec3 low = box->low, high = box->high;
+            CANDELA_VECTORIZE_SIXTEEN
+            for (std::size_t i = 0; i < k_size; ++i) {
+                const float x0 = (low.x - rays->org_x[i]) * inverse[0][i];
+                const float x1 = (high.x - rays->org_x[i]) * inverse[0][i];
+                const float y0 = (low.y - rays->org_y[i]) * inverse[1][i];
+                const float y1 = (high.y - rays->org_y[i]) * inverse[1][i];
+                const float z0 = (low.z - rays->org_z[i]) * inverse[2][i];
+                const float z1 = (high.z - rays->org_z[i]) * inverse[2][i];
+                const float near = kernel::max(kernel::max(kernel::min(x0, x1), kernel::min(y0, y1)),
+                                               kernel::max(kernel::min(z0, z1), 0.0f));
+                const float far = kernel::min(kernel::min(kernel::max(x0, x1), kernel::max(y0, y1)),
+                                              kernel::min(kernel::max(z0, z1), rays->tfar[i]));
+                // Rounding must not lose a ray that grazes the box.
+                reaches[i] |= near <= far * 1.00001f ? -1 : 0;
+            }
+        }
+        CANDELA_VECTORIZE_SIXTEEN
+        for (std::size_t i = 0; i < k_size; ++i) valid[i] &= reaches[i];
+    }
+};
+
+/// The box with a margin, so that it contains all that a ray may hit in spite of rounding.
+Box widened(Box box) {
+    constexpr float k_margin = 16 * OcclusionTree::k_relative_margin;
+    const auto wide = [](float low, float high) { return k_margin * (std::abs(low) + std::abs(high)); };
+    const Vec3 by{wide(box.low.x, box.high.x), wide(box.low.y, box.high.y), wide(box.low.z, box.high.z)};
+    return {box.low - by, box.high + by};
+}
+
 /// The longest edge of the mesh's triangles, along any axis.
 float largest_triangle(const Mesh& mesh) {
     float largest = 0;
@@ -160,6 +213,19 @@ struct OcclusionTree::Tree {
     ~Tree() { embree.release_scene(scene); }
 
     void add(const Mesh& mesh, Surface& surface) const;
+
+    /// If the object is convex, the boxes of all others, and how many there are; unless there are too many.
+    std::optional<std::size_t> boxes_around_convex(std::uint32_t object,
+                                                   std::array<Box, k_most_boxes>& boxes) const {
+        if (!surfaces[object].is_convex) return std::nullopt;
+        std::size_t count = 0;
+        for (const Surface& surface : surfaces) {
+            if (surface.object == object || !surface.bounds) continue;
+            if (count == k_most_boxes) return std::nullopt;
+            boxes[count++] = *surface.bounds;
+        }
+        return count;
+    }
 
     /// Whether a ray is blocked if it is traced on its own. Adds its hits of transparent objects.
     bool is_blocked(const ShadowRays& rays, std::size_t ray, std::vector<TransparentHit>& hits) const;
@@ -193,7 +259,9 @@ OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::m
         t.surfaces[i] = {.object = static_cast<std::uint32_t>(i),
                          .is_solid = occluder.is_solid,
                          .is_transparent = occluder.is_transparent,
-                         .has_inside = occluder.mesh->open_edges == 0};
+                         .has_inside = occluder.mesh->open_edges == 0,
+                         .is_convex = occluder.is_solid && occluder.mesh->is_convex,
+                         .bounds = widened(occluder.mesh->bounds)};
         t.has_transparent = t.has_transparent || occluder.is_transparent;
         if (!occluder.is_solid) t.largest = std::max(t.largest, largest_triangle(*occluder.mesh));
         t.add(*occluder.mesh, t.surfaces[i]);
@@ -295,6 +363,8 @@ void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
     PacketContext packet;
     packet.object = rays.object;
     packet.hits = &hits;
+    std::array<Box, k_most_boxes> others;
+    const std::optional<std::size_t> other_count = t.boxes_around_convex(rays.object, others);
     for (std::size_t first = 0; first < rays.count; first += k_size) {
         const std::uint32_t* const flags = rays.flags + first;
         float* const to = visible + first;
@@ -302,6 +372,7 @@ void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
         RTCRay16 traced;
         multiversion<PacketLoop>(rays.origin.from(first), rays.direction.from(first), rays.length + first,
                                  flags, &traced, valid.data());
+        if (other_count) multiversion<CullLoop>(&traced, others.data(), *other_count, valid.data());
         if (std::ranges::all_of(valid, [](int each) { return each == 0; })) {
             std::fill_n(to, k_size, 1.0f);
             continue;
