@@ -45,6 +45,25 @@ class Terms(unittest.TestCase):
             self.scene.terms("difuse")
 
 
+class Shadows(unittest.TestCase):
+    def setUp(self):
+        lid = {"name": "lid", "type": "cube", "position": [0, 1, 1.5], "scale": [1, 0.6, 0.6]}  # on the way from the sun
+        self.scene = candela.Scene.from_dict({**FACE, "object": [*FACE["object"], lid], "shadows": {"enabled": True}})
+
+    def test_a_blocked_light_leaves_the_ambient_one(self):
+        np.testing.assert_allclose(self.scene.render(floats=True), np.full((4, 6, 3), AMBIENT), rtol=1e-5)
+        np.testing.assert_array_equal(self.scene.terms("visibility.sun")["visibility.sun"], np.zeros((4, 6, 3)))
+
+    def test_a_pixel_names_the_blocker(self):
+        point, = self.scene.explain(3, 2)["fragments"][0]["points"]
+        sun = next(light for light in point["lights"] if light["type"] == "directional")
+        self.assertEqual((sun["blocked_by"]["object"], sun["visibility"]), ("'lid'", [0, 0, 0]))
+
+    def test_without_shadows_the_same_scene_is_lit(self):
+        lit = self.scene.changed({"shadows.enabled": False}).render(floats=True)
+        np.testing.assert_allclose(lit, np.full((4, 6, 3), AMBIENT + DIFFUSE + SPECULAR), rtol=1e-5)
+
+
 class Explanations(unittest.TestCase):
     def setUp(self):
         self.scene = candela.Scene.from_dict(FACE)
