@@ -217,7 +217,7 @@ struct OcclusionTree::Tree {
     /// If the object is convex, the boxes of all others, and how many there are; unless there are too many.
     std::optional<std::size_t> boxes_around_convex(std::uint32_t object,
                                                    std::array<Box, k_most_boxes>& boxes) const {
-        if (!surfaces[object].is_convex) return std::nullopt;
+        if (object >= surfaces.size() || !surfaces[object].is_convex) return std::nullopt;
         std::size_t count = 0;
         for (const Surface& surface : surfaces) {
             if (surface.object == object || !surface.bounds) continue;

@@ -137,6 +137,48 @@ std::vector<Ray> delicate_rays(const candela::Mesh& mesh, std::size_t count) {
 
 }  // namespace
 
+TEST_CASE("rays of a convex object that meet no other box are visible, and all others are as if traced") {
+    const Given coarse{{"segments", 24}};
+    std::vector<candela::Mesh> meshes;
+    meshes.push_back(shape("sphere", coarse));
+    meshes.push_back(shape("cube", {}, {.position = {1.5f, 0.4f, 0}}));
+    meshes.push_back(shape("torus", coarse, {.position = {0, 2, 0}, .rotation = {30, 0, 20}}));
+    REQUIRE(meshes[0].is_convex);
+    REQUIRE(meshes[1].is_convex);
+    REQUIRE(!meshes[2].is_convex);
+    const auto tree_of = [&] {
+        std::vector<Occluder> occluders;
+        for (const candela::Mesh& mesh : meshes) occluders.push_back({.mesh = &mesh, .is_solid = true});
+        return OcclusionTree(occluders);
+    };
+    const OcclusionTree culled = tree_of();
+    for (candela::Mesh& mesh : meshes) mesh.is_convex = false;
+    const OcclusionTree traced = tree_of();
+    Random random(7);
+    for (std::uint32_t object = 0; object < 2; ++object) {
+        const candela::Mesh& mesh = meshes[object];
+        std::vector<Ray> rays;
+        while (rays.size() < 20'000) {
+            const auto triangle = static_cast<std::uint32_t>(
+                random.number(0, static_cast<double>(mesh.triangle_count()) - 0.5));
+            const candela::ConstVec3Span p = mesh.position.span();
+            const Vec3 a = p[mesh.indices[3 * triangle]], b = p[mesh.indices[3 * triangle + 1]],
+                       c = p[mesh.indices[3 * triangle + 2]];
+            const Vec3 normal = mesh.face_normal.span()[triangle];
+            const Vec3 towards = random.direction();
+            if (dot(normal, towards) <= 0.01f) continue;
+            // Along an axis, some of them, where a box's planes are parallel to the ray.
+            const Vec3 along = rays.size() % 5 == 0 && normal.y > 0.1f ? Vec3{0, 1, 0} : towards;
+            rays.push_back(
+                {(1 / 3.0f) * (a + b + c) + 1e-5f * normal, along, rays.size() % 3 == 0 ? 1.2f : k_infinity});
+        }
+        const std::vector<float> expected = visible(traced, rays, object);
+        CHECK(visible(culled, rays, object) == expected);
+        CHECK(std::ranges::count(expected, 0.0f) > 500);
+        CHECK(std::ranges::count(expected, 1.0f) > 1000);
+    }
+}
+
 TEST_CASE("a ray is blocked, or not, whatever other rays are traced with it") {
     for (const char* const name : {"cube", "sphere", "torus", "teapot"}) {
         const candela::Mesh mesh = shape(name);
