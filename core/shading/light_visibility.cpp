@@ -28,7 +28,10 @@ namespace {
 using kernel::vec3;
 
 /// Rays from a batch's points to a light. They start a margin above the surface, or below it where it faces
-/// away from the light, and end a margin before the light.
+/// away from the light, and end a margin before the light. Above, they also start a margin before the point,
+/// so that walls that meet in it are in the way and light does not leak through corners; below, a margin
+/// after it, so that they start inside the object also at its corners. At vertices, which are the corners,
+/// they also start further inside.
 struct AimLoop {
     struct Points {
         ConstVec3Span position, face_normal, normal;
@@ -36,12 +39,15 @@ struct AimLoop {
         float margin;   // at least
         bool from_all;  // also where the shading normal faces away
         std::uint32_t count;
+        Vec3 middle;   // of the mesh
+        float inward;  // how many margins along the surface towards it
     };
 
     CANDELA_BATCH_LOOP static void run(Points points, ConstVec3Span to_light, const float* distance,
                                        const float* brightness, std::size_t count, Vec3Span origin,
                                        float* length, std::uint32_t* flags) {
         const float always = points.from_all ? 1.0f : 0.0f;
+        const vec3 middle(points.middle.x, points.middle.y, points.middle.z);
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const vec3 p = kernel::load(points.position, i);
@@ -51,7 +57,10 @@ struct AimLoop {
                 kernel::max(kernel::max(kernel::abs(p.x), kernel::abs(p.y)), kernel::abs(p.z));
             const float margin = kernel::max(points.margin, OcclusionTree::k_relative_margin * largest);
             const bool is_below = kernel::dot(n, l) < 0.0f;
-            kernel::store(origin, i, p + n * (is_below ? -margin : margin));
+            const vec3 to_middle = kernel::normalize(middle - p);
+            const vec3 along = to_middle - n * kernel::dot(n, to_middle);
+            const vec3 from = p + (n * 2.0f - l) * (is_below ? -margin : margin);
+            kernel::store(origin, i, from + along * (points.inward * margin));
             const float to = distance[i] * 0.9999990f - 2.0f * margin;
             length[i] = to;
             const bool faces = kernel::max(kernel::dot(kernel::load(points.normal, i), l), always) > 0.0f;
@@ -211,7 +220,9 @@ void LightVisibility::aim(const LightSample& light, const ConstVec3Span& positio
                                  .facing = points_->facing.data(),
                                  .margin = tree_->least_margin(),
                                  .from_all = lights_below_horizon_,
-                                 .count = static_cast<std::uint32_t>(points_->count)};
+                                 .count = static_cast<std::uint32_t>(points_->count),
+                                 .middle = 0.5f * (mesh_->bounds.low + mesh_->bounds.high),
+                                 .inward = points_->has_triangle ? 0.0f : 2.0f};
     if (light.brightness == nullptr) std::fill_n(visible_.begin(), count_, 1.0f);
     const float* const brightness = light.brightness != nullptr ? light.brightness : visible_.data();
     multiversion<AimLoop>(points, light.to_light, light.distance, brightness, count_, origin_.span(),

@@ -1,7 +1,10 @@
 // The same scene yields the same picture, however the work is divided.
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
 #include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "support/command.h"
 #include "support/compiled.h"
@@ -57,14 +60,55 @@ shading = "gouraud"
 reflection = "half-lambert"
 )";
 
+/// More of it: everything that meets shadows. The floor's diagonal and the slab's edges are in symmetric
+/// places.
+const std::string k_shadow_scene = std::string(k_scene) + R"([[light]]
+type = "distributed"
+position = [0, 2.4, 0]
+edge_v = [0, 0, 0.7]
+samples_u = 3
+samples_v = 2
+intensity = 5
+[[light]]
+type = "directional"
+direction = [0, -1, 0]
+intensity = 0.4
+[[light]]
+type = "hemisphere"
+ambient_occlusion_rays = 5
+ambient_occlusion_distance = 0.7
+[[object]]
+name = "floor"
+type = "cube"
+position = [0, -1.3, 0]
+scale = [4, 0.1, 4]
+shading = "phong"
+reflection = "lambert"
+[[object]]
+name = "slab"
+type = "cube"
+position = [0, 0.9, 0]
+scale = [1, 0.1, 1]
+color = [200, 250, 180]
+shading = "phong"
+reflection = "dielectric"
+)";
+
 class Fixture {
   public:
-    explicit Fixture(int samples)
-        : scene_(compiled(k_scene, {{"--samples", "image.samples", std::to_string(samples)}}).scene) {}
+    explicit Fixture(int samples, const std::string& scene = k_scene, const std::string& shadows = "false")
+        : scene_(compiled(scene, {{"--samples", "image.samples", std::to_string(samples)},
+                                  {"--shadows", "shadows.enabled", shadows},
+                                  {"--set", "constraints.overlap", "allow"}})
+                     .scene) {}
 
     std::vector<float> picture(int threads, int tile_size) const {
+        return rows({0, scene_.image.height}, threads, tile_size);
+    }
+
+    std::vector<float> rows(candela::RowRange range, int threads, int tile_size) const {
         candela::Film film(scene_.image.width, scene_.image.height, candela::PixelType::real,
-                           candela::ColorEncoding::srgb);
+                           candela::ColorEncoding::srgb, range);
         candela::render(scene_, film, {.threads = threads, .tile_size = tile_size});
         const auto pixels = film.view().reals;
         return {pixels.begin(), pixels.end()};
@@ -88,6 +132,37 @@ TEST_CASE("a picture does not depend on the number of threads or the size of the
             }
         }
     }
+}
+
+TEST_CASE("a picture with shadows depends neither on threads nor on tiles nor on what else is rendered") {
+    for (const int samples : {1, 8}) {
+        INFO(samples << " samples");
+        const Fixture fixture(samples, k_shadow_scene, "true");
+        const auto expected = fixture.picture(1, 64);
+        for (const int threads : {2, 3, 7}) {
+            for (const int tile_size : {16, 32, 128}) {
+                INFO(threads << " threads, tiles of " << tile_size);
+                CHECK((fixture.picture(threads, tile_size) == expected));
+            }
+        }
+        std::vector<float> in_parts;
+        for (const candela::RowRange rows : {candela::RowRange{0, 1}, candela::RowRange{1, 50},
+                                             candela::RowRange{50, 133}, candela::RowRange{133, 217}}) {
+            const auto part = fixture.rows(rows, 2, 32);
+            in_parts.insert(in_parts.end(), part.begin(), part.end());
+        }
+        CHECK((in_parts == expected));
+        CHECK((Fixture(samples, k_shadow_scene).picture(1, 64) != expected));
+    }
+}
+
+TEST_CASE("what casts and receives shadows changes nothing in a scene without them") {
+    std::string scene = k_shadow_scene;
+    for (const std::string of : {"[[light]]\n", "[[object]]\n"}) {
+        for (std::size_t at = scene.find(of); at != std::string::npos; at = scene.find(of, at + 1))
+            scene.insert(at + of.size(), "casts_shadows = false\n");
+    }
+    CHECK((Fixture(4, scene).picture(2, 64) == Fixture(4, k_shadow_scene).picture(2, 64)));
 }
 
 TEST_CASE("a face whose rows span several batches is the same in tiles of any size") {
@@ -136,7 +211,8 @@ TEST_CASE("the command writes the same file with one thread and with eight") {
 }
 
 TEST_CASE("every instruction set renders the same picture except for rounding") {
-    const Fixture fixture(1);
+    const bool has_shadows = GENERATE(false, true);
+    const Fixture fixture = has_shadows ? Fixture(1, k_shadow_scene, "true") : Fixture(1);
     const candela::InstructionSet before = candela::instruction_set();
     REQUIRE(candela::use_instruction_set(candela::InstructionSet::baseline));
     const auto expected = fixture.picture(2, 64);

@@ -1,0 +1,235 @@
+// Shadows have no artefacts: nothing but what is in the way blocks light, and light does not leak, at any
+// scale and place.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+#include "support/compiled.h"
+#include "support/samples.h"
+#include "support/scene_tables.h"
+
+namespace {
+
+using candela::Vec3;
+
+std::vector<float> picture(const candela::RenderScene& scene) {
+    candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real,
+                       scene.image.color_management);
+    candela::render(scene, film, {.threads = 1});
+    const auto pixels = film.view().reals;
+    return {pixels.begin(), pixels.end()};
+}
+
+std::string vec(Vec3 v) { return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x, v.y, v.z); }
+
+/// Scenes with files of meshes, rendered with shadows and without.
+class Studio {
+  public:
+    void add_file(const std::string& name, const std::string& text) { write_file(folder_ / name, text); }
+
+    /// The red channels of the same scene's pictures.
+    struct Pair {
+        std::vector<float> shadowed, lit;
+
+        /// The number of pixels that are lit without shadows.
+        int bright() const {
+            return static_cast<int>(std::ranges::count_if(lit, [](float each) { return each > 0; }));
+        }
+        /// The number of pixels that are darker with shadows.
+        int darkened() const {
+            int count = 0;
+            for (std::size_t i = 0; i < lit.size(); ++i) count += shadowed[i] < lit[i] * (1 - 1e-5f) ? 1 : 0;
+            return count;
+        }
+        /// The number of pixels that are lit with shadows.
+        int left() const {
+            return static_cast<int>(std::ranges::count_if(shadowed, [](float each) { return each > 0; }));
+        }
+    };
+    Pair render(const std::string& text) {
+        candela::SceneRequest request;
+        request.files = {write_file(folder_ / "scene.toml", "version = 1\n" + text)};
+        Compiled made = compiled(request);
+        REQUIRE(made.scene.occlusion.has_value());
+        Pair pair;
+        const auto red_of = [](const std::vector<float>& pixels) {
+            std::vector<float> red;
+            for (std::size_t i = 0; i < pixels.size(); i += 3) red.push_back(pixels[i]);
+            return red;
+        };
+        pair.shadowed = red_of(picture(made.scene));
+        made.scene.occlusion.reset();
+        pair.lit = red_of(picture(made.scene));
+        return pair;
+    }
+
+  private:
+    std::filesystem::path folder_ = scratch_directory();
+};
+
+/// A square from -1 to 1 in x and y, divided into n by n squares.
+std::string grid_obj(int n) {
+    std::string obj;
+    for (int j = 0; j <= n; ++j) {
+        for (int i = 0; i <= n; ++i) obj += fmt::format("v {} {} 0\n", 2.0 * i / n - 1, 2.0 * j / n - 1);
+    }
+    for (int j = 0; j < n; ++j) {
+        for (int i = 0; i < n; ++i) {
+            const int a = j * (n + 1) + i + 1;
+            obj += fmt::format("f {} {} {} {}\n", a, a + 1, a + n + 2, a + n + 1);
+        }
+    }
+    return obj;
+}
+
+/// A part of a cylinder around the y axis with radius 1 and smooth normals, bulging towards +z.
+std::string arch_obj(int segments, double angle, bool is_hollow) {
+    std::string obj;
+    for (int i = 0; i <= segments; ++i) {
+        const double a = angle * (static_cast<double>(i) / segments - 0.5);
+        const double x = std::sin(a), z = std::cos(a), sign = is_hollow ? -1 : 1;
+        obj += fmt::format("v {} -1 {}\nv {} 1 {}\nvn {} 0 {}\nvn {} 0 {}\n", x, z, x, z, sign * x, sign * z,
+                           sign * x, sign * z);
+    }
+    for (int i = 0; i < segments; ++i) {
+        const int a = 2 * i + 1;
+        obj += is_hollow ? fmt::format("f {0}//{0} {1}//{1} {2}//{2} {3}//{3}\n", a, a + 1, a + 3, a + 2)
+                         : fmt::format("f {0}//{0} {1}//{1} {2}//{2} {3}//{3}\n", a, a + 2, a + 3, a + 1);
+    }
+    return obj;
+}
+
+constexpr const char* k_shadows = "[shadows]\nenabled = true\n[constraints]\noverlap = \"allow\"\n";
+constexpr const char* k_rates[] = {"flat", "gouraud", "phong"};
+
+std::string view(Vec3 eye, Vec3 at, double room, int width = 120, int height = 100, double fov = 40) {
+    return fmt::format(
+        "{0}[room]\nwidth = {1}\nheight = {1}\ndepth = {1}\n"
+        "[observer]\nposition = {2}\nlook_at = {3}\nup = [0.1, 0.9, 0.2]\nfov = {4}\n{5}",
+        k_shadows, room, vec(eye), vec(at), fov, image_table(width, height));
+}
+
+std::string directional(Vec3 to_light) {
+    return fmt::format("[[light]]\ntype = \"directional\"\ndirection = {}\n", vec(-to_light));
+}
+std::string point(Vec3 position) {
+    return fmt::format("[[light]]\ntype = \"point\"\nattenuation = \"none\"\nposition = {}\n", vec(position));
+}
+
+}  // namespace
+
+TEST_CASE("convex objects and planes do not shadow themselves, at any scale, place and orientation") {
+    Studio studio;
+    studio.add_file("quad.obj", grid_obj(1));
+    studio.add_file("grid.obj", grid_obj(60));
+    Random random(5);
+    long long bright = 0;
+    for (const char* const shape :
+         {"type = \"sphere\"\nsegments = 8", "type = \"sphere\"\nsegments = 100", "type = \"cube\"",
+          "type = \"mesh\"\nfile = \"quad.obj\"", "type = \"mesh\"\nfile = \"grid.obj\""}) {
+        for (const char* const shading : k_rates) {
+            for (int k = 0; k < 12; ++k) {
+                const double unit = std::pow(10.0, random.number(-6, 4.5));
+                const Vec3 at = static_cast<float>(unit * (k % 3 == 0   ? 0
+                                                           : k % 3 == 1 ? 3
+                                                                        : 100)) *
+                                random.direction();
+                const Vec3 to_eye = random.direction();
+                const Vec3 to_light = normalized(to_eye + 0.9f * random.direction());
+                const std::string light =
+                    k % 2 == 0 ? directional(to_light) : point(at + static_cast<float>(5 * unit) * to_light);
+                const auto pair = studio.render(
+                    view(at + static_cast<float>(4 * unit) * to_eye, at, 300 * unit) +
+                    models(shading, k % 4 < 3 ? "lambert" : "half-lambert") + light + "[[object]]\n" + shape +
+                    fmt::format("\nposition = {}\nscale = {:.9g}\nrotation = [{}, {}, {}]\n", vec(at),
+                                1.2 * unit, random.number(0, 360), random.number(0, 360),
+                                random.number(0, 360)));
+                INFO(shape << ", " << shading << ", one unit is " << unit << " m, at " << text(at));
+                CHECK(pair.darkened() == 0);
+                bright += pair.bright();
+            }
+        }
+    }
+    CHECK(bright > 300'000);
+}
+
+TEST_CASE("the terminator of coarse smooth meshes that bulge is that without shadows") {
+    Studio studio;
+    Random random(6);
+    int bright = 0;
+    for (const int segments : {8, 11, 16}) {
+        studio.add_file("arch.obj", arch_obj(segments, 2.5, false));
+        for (const std::string& shape : {fmt::format("type = \"sphere\"\nsegments = {}\nscale = 2", segments),
+                                         std::string("type = \"mesh\"\nfile = \"arch.obj\"")}) {
+            for (int k = 0; k < 12; ++k) {
+                Vec3 to_light = random.direction();
+                to_light.z *= 0.3f;
+                const auto pair =
+                    studio.render(view({0.5f, 0.6f, 3.5f}, {}, 20) + models("phong", "lambert") +
+                                  directional(normalized(to_light)) + "[[object]]\n" + shape + "\n");
+                INFO(shape << ", light from " << text(to_light));
+                CHECK(pair.darkened() == 0);
+                bright += pair.bright();
+            }
+        }
+    }
+    CHECK(bright > 50'000);
+}
+
+TEST_CASE("light does not leak into a closed room from outside") {
+    Studio studio;
+    Random random(7);
+    int bright = 0;
+    for (const char* const shape : {"cube", "sphere"}) {
+        for (const char* const shading : k_rates) {
+            for (int k = 0; k < 16; ++k) {
+                const double unit = std::pow(10.0, random.number(-6, 4.5));
+                const auto u = static_cast<float>(unit);
+                const Vec3 at = (k % 2 == 0 ? 0 : 5 * u) * random.direction();
+                const Vec3 lamp = at + (k % 4 == 0 ? 30 * u : 1.8f * u) * random.direction();
+                // Towards a corner, or anywhere.
+                const auto pair = studio.render(
+                    view(at + 0.1f * u * random.direction(), at + u * random.direction(), 100 * unit, 160,
+                         120, 110) +
+                    models(shading, "lambert") + point(lamp) +
+                    fmt::format(
+                        "[[object]]\ntype = \"{}\"\n{}encloses = true\nposition = {}\nscale = {:.9g}\n"
+                        "rotation = [{}, {}, {}]\n",
+                        shape, *shape == 's' ? "segments = 10\n" : "", vec(at), unit, 20 * k % 360,
+                        k % 3 == 0 ? 0 : 31 * k % 360, 0));
+                INFO(shape << ", " << shading << ", one unit is " << unit << " m, lamp at " << text(lamp));
+                CHECK(pair.left() == 0);
+                bright += pair.bright();
+            }
+        }
+    }
+    CHECK(bright > 300'000);
+}
+
+TEST_CASE("light does not leak through the walls of a hollow smooth mesh") {
+    Studio studio;
+    Random random(8);
+    for (const int segments : {8, 11, 16}) {
+        studio.add_file("arch.obj", arch_obj(segments, 3.1, true));
+        for (int k = 0; k < 12; ++k) {
+            // From behind the arch.
+            const Vec3 to_light = normalized(Vec3{static_cast<float>(random.number(-1, 1)), 0.0f,
+                                                  static_cast<float>(random.number(0.1, 1))});
+            const auto pair =
+                studio.render(view({0.1f, 0.2f, -2}, {}, 20) + models("phong", "lambert") +
+                              directional(to_light) + "[[object]]\ntype = \"mesh\"\nfile = \"arch.obj\"\n");
+            INFO(segments << " segments, light from " << text(to_light));
+            CHECK(pair.left() == 0);
+        }
+    }
+}
