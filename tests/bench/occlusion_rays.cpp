@@ -198,7 +198,6 @@ int main(int argc, char** argv) {
         const double theirs = seconds([&] {
             RTCIntersectContext context;
             rtcInitIntersectContext(&context);
-            context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
             for (std::size_t k = 0; k < packets.rays.size(); ++k) {
                 RTCRay16 packet = packets.rays[k];
                 alignas(64) const std::array<int, 16> valid = packets.valid[k];
