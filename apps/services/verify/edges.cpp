@@ -57,14 +57,17 @@ constexpr std::array k_turns = {0.0f, 2 * std::numbers::pi_v<float> / 3, 4 * std
 class TurnedLight final : public candela::Light {
   public:
     /// `way`: as in k_turns; empty to leave the light unchanged. It may change between pictures.
-    TurnedLight(std::unique_ptr<candela::Light> light, const std::optional<float>& way)
-        : light_(std::move(light)), way_(way) {}
+    /// `data`: the light's, if it has any.
+    TurnedLight(std::unique_ptr<candela::Light> light, std::optional<candela::LightData> data,
+                const std::optional<float>& way)
+        : light_(std::move(light)), data_(std::move(data)), way_(way) {}
 
     int sample_count() const noexcept override { return light_->sample_count(); }
 
     void illuminate(int sample, const candela::ReceiverBatch& receivers,
                     const candela::IncidentBatch& incident) const override {
         light_->illuminate(sample, receivers, incident);
+        if (incident.distance != nullptr && data_) write_distances(sample, receivers, incident.distance);
         if (!way_) return;
         const float along = k_turn * std::cos(*way_), across = k_turn * std::sin(*way_);
         const candela::Vec3Span& to_light = incident.to_light;
@@ -80,11 +83,37 @@ class TurnedLight final : public candela::Light {
         light_->illuminate_ambient(receivers, ambient);
     }
     std::unique_ptr<candela::Light> release() { return std::move(light_); }
+    const std::optional<candela::LightData>& data() const { return data_; }
 
   private:
+    /// Only their data say how far away such lights are.
+    void write_distances(int sample, const candela::ReceiverBatch& receivers, float* distance) const {
+        const candela::PunctualLight& light = data_->samples[static_cast<std::size_t>(sample)];
+        if (light.w == 0) return;
+        for (std::size_t i = 0; i < receivers.count; ++i)
+            distance[i] = candela::length(light.position - receivers.position[i]);
+    }
+
     std::unique_ptr<candela::Light> light_;
+    std::optional<candela::LightData> data_;
     const std::optional<float>& way_;
 };
+
+bool has_extent(const std::optional<candela::LightData>& data) {
+    return data && std::ranges::any_of(data->samples, [](const candela::PunctualLight& sample) {
+               return sample.extent_u != Vec3{} || sample.extent_v != Vec3{};
+           });
+}
+
+/// The data of a light with an extent, moved by a small fraction of it: its samples vary within the extent
+/// anyway, from pixel to pixel, which only the renderer can do. Three ways lie in no common plane.
+candela::LightData moved(candela::LightData data, float way) {
+    for (candela::PunctualLight& sample : data.samples) {
+        const float size = candela::length(sample.extent_u) + candela::length(sample.extent_v);
+        sample.position = sample.position + k_turn * size * Vec3{std::cos(way), std::sin(way), 1};
+    }
+    return data;
+}
 
 using Intensities = std::vector<float>;
 
@@ -98,11 +127,14 @@ class Mover {
           observer_(candela::fitted(scene.observer, reference.width(), reference.height())),
           samples_(scene.image.samples) {
         scene_.image.samples = 1;
+        const bool varies = scene.occlusion && scene.shadow_pattern == candela::ShadowPattern::varied;
         for (candela::RenderLight& source : scene_.lights) {
-            auto turned = std::make_unique<TurnedLight>(std::move(source.light), way_);
+            has_penumbras_.push_back(varies && source.casts_shadows && has_extent(source.data));
+            auto turned =
+                std::make_unique<TurnedLight>(std::move(source.light), std::move(source.data), way_);
+            source.data.reset();
             turned_.push_back(turned.get());
             source.light = std::move(turned);
-            data_.push_back(std::exchange(source.data, std::nullopt));
         }
     }
     Mover(const Mover&) = delete;
@@ -111,9 +143,9 @@ class Mover {
         scene_.observer = own_observer_;
         scene_.image.samples = samples_;
         for (std::size_t i = 0; i < turned_.size(); ++i) {
+            scene_.lights[i].data = turned_[i]->data();
             std::unique_ptr<candela::Light> own = turned_[i]->release();
             scene_.lights[i].light = std::move(own);
-            scene_.lights[i].data = std::move(data_[i]);
         }
     }
 
@@ -121,6 +153,11 @@ class Mover {
     /// directions are turned, if at all.
     Intensities seen_at(float x, float y, std::optional<float> way = std::nullopt) {
         way_ = way;
+        for (std::size_t i = 0; i < turned_.size(); ++i) {
+            if (!has_penumbras_[i]) continue;
+            const candela::LightData& own = *turned_[i]->data();
+            scene_.lights[i].data = way ? moved(own, *way) : own;
+        }
         scene_.observer = shifted(observer_, 0.5f - x, 0.5f - y, reference_.height());
         candela::Film film(reference_.width(), reference_.height(), candela::PixelType::real,
                            scene_.image.color_management);
@@ -135,7 +172,7 @@ class Mover {
     int samples_;
     std::optional<float> way_;
     std::vector<TurnedLight*> turned_;
-    std::vector<std::optional<candela::LightData>> data_;  // of the unturned lights
+    std::vector<bool> has_penumbras_;  // whose samples vary, so that they remain data
 };
 
 /// The value in a picture's file, 0 to 255, before rounding.
