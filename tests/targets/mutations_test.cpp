@@ -175,6 +175,52 @@ constexpr std::array k_texture_mutations = {
                                                "color_texture_wrapped(uv.y, t.repeats)"}},
 };
 
+/// A coarse ball and a bent sheet over a floor. A light is below the ball's shadow, and one is not blocked.
+constexpr const char* k_shadow_scene = R"(version = 1
+observer = {position = [0, 1.6, 4.4], look_at = [0, -0.3, 0], fov = 45}
+image = {width = 240, height = 180}
+room = {width = 20, height = 20, depth = 20}
+shading = {model = "phong"}
+reflection = {model = "lambert"}
+shadows = {enabled = true}
+light = [
+    {type = "ambient", intensity = 0.4, ambient_occlusion_rays = 8, ambient_occlusion_distance = 1.5},
+    {type = "point", position = [-1.5, 2, 1], intensity = 3},
+    {type = "point", position = [1, -0.6, 2.5], intensity = 0.5, casts_shadows = false},
+    {type = "distributed", position = [1, 2, 0], edge_u = [1, 0, 0.4], samples_u = 4, intensity = 3},
+]
+object = [
+    {name = "floor", type = "mesh", file = "floor.obj"},
+    {name = "ball", type = "sphere", radius = 0.6, segments = 9, position = [-0.9, -0.3, 0]},
+    {name = "sheet", type = "mesh", file = "sheet.obj", position = [0.9, -0.95, 0]},
+    {name = "ghost", type = "cube", size = 0.4, position = [0, -0.7, 1.4], casts_shadows = false},
+    {name = "pale", type = "cube", size = 0.4, position = [0.1, -0.79, -0.6], receives_shadows = false},
+]
+)";
+constexpr const char* k_shadow_floor = "v -3 -1 -3\nv -3 -1 3\nv 3 -1 3\nv 3 -1 -3\nf 1 2 3 4\n";
+constexpr const char* k_sheet =
+    "v -0.5 0 0.3\nv 0 0 0\nv 0.5 0 0.3\nv -0.5 1 0.3\nv 0 1 0\nv 0.5 1 0.3\nf 1 2 5 4\nf 2 3 6 5\n";
+
+constexpr std::array k_shadow_mutations = {
+    std::pair{"light is blocked where it leaves",
+              Edit{"object->is_solid) return enters", "object->is_solid) return !enters"}},
+    std::pair{"solid objects block on both sides",
+              Edit{"object->is_solid) return enters", "object->is_solid) return true"}},
+    std::pair{"open surfaces block on one side only",
+              Edit{"object->is_solid) return enters", "object->is_solid || true) return enters"}},
+    std::pair{"a light behind which something stands is blocked",
+              Edit{"float length = distance", "float length = k_infinitely_far + distance"}},
+    std::pair{"rays start at the surface", Edit{"return 0x1p-20f *", "return 0.0f *"}},
+    std::pair{"all lights cast shadows", Edit{"= {true, false}", "= {true, true}"}},
+    std::pair{"all objects cast shadows", Edit{"o.casts_shadows = false", "o.casts_shadows = true"}},
+    std::pair{"all objects receive shadows", Edit{"o.receives_shadows = false", "o.receives_shadows = true"}},
+    std::pair{"penumbras have steps", Edit{"- offset.x * part.u", "- 0.0f * offset.x * part.u"}},
+    std::pair{"samples vary differently", Edit{"at.pixel.x * 3679390609u", "at.pixel.y * 3679390609u"}},
+    std::pair{"ambient occlusion reaches too far", Edit{"{8, 1.5f}", "{8, 3.0f}"}},
+    std::pair{"rays of ambient occlusion are not turned", Edit{"0.61803399f * k", "0.0f * k"}},
+};
+static_assert(k_shadow_mutations.size() == 12);
+
 /// Replaces all occurrences. None is an error of this test, because the fault would be missing.
 std::string edited(std::string text, const Edit& edit) {
     INFO("no longer in the program: " << edit.from);
@@ -237,6 +283,16 @@ void expect_all_caught_of_textures(const std::string& target, const std::string&
     expect_caught(target, scene, file, {k_texture_mutations.begin(), k_texture_mutations.end()});
 }
 
+#ifndef CANDELA_TEST_SHADERS
+void expect_all_caught_of_shadows(const std::string& target, const std::string& file) {
+    const fs::path folder = scratch_directory();
+    write_file(folder / "floor.obj", k_shadow_floor);
+    write_file(folder / "sheet.obj", k_sheet);
+    const std::string scene = write_file(folder / "scene.toml", k_shadow_scene).string();
+    expect_caught(target, scene, file, {k_shadow_mutations.begin(), k_shadow_mutations.end()});
+}
+#endif
+
 }  // namespace
 
 #ifdef CANDELA_TEST_SHADERS
@@ -262,5 +318,9 @@ TEST_CASE("verify: fifteen faults of a C++ program are caught") {
 
 TEST_CASE("verify: eight faults of the textures of a C++ program are caught") {
     expect_all_caught_of_textures("cpp", "scene.cpp");
+}
+
+TEST_CASE("verify: twelve faults of the shadows of a C++ program are caught") {
+    expect_all_caught_of_shadows("cpp", "scene.cpp");
 }
 #endif

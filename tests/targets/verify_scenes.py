@@ -1,5 +1,6 @@
 """verify_scenes.py CANDELA SCRATCH NUMBER [TARGET]: runs `candela verify` on one of the scenes of scenes.py.
 verify_scenes.py CANDELA SCRATCH textures-NUMBER [TARGET]: the same for texture_scenes.py.
+verify_scenes.py CANDELA SCRATCH shadows-NUMBER [TARGET]: the same for shadow_scenes.py.
 verify_scenes.py CANDELA SCRATCH NUMBER TARGET exact: only what a target expresses with its own models, to within 1/255.
 verify_scenes.py CANDELA SCRATCH NUMBER three own: only what three.js draws itself, without kernels.
 verify_scenes.py CANDELA SCRATCH pairs: checks that the scenes of scenes.py cover all pairs."""
@@ -12,6 +13,7 @@ import subprocess
 import sys
 
 import scenes
+import shadow_scenes
 import texture_scenes
 
 SKIPPED = 77  # as CTest is told
@@ -35,8 +37,11 @@ def uncovered(catalogue):
     return missing or objects < 96
 
 
-def scene_of(catalogue, what):
+def scene_of(catalogue, what, is_exact):
     """The text of a scene, and the files that it names."""
+    if what.startswith("shadows-"):
+        number = int(what.removeprefix("shadows-"))
+        return shadow_scenes.scene_text(catalogue.factors()["reflection"], number, is_exact), shadow_scenes.files()
     if what.startswith("textures-"):
         number = int(what.removeprefix("textures-"))
         return texture_scenes.scene_text(catalogue.factors()["reflection"], number), texture_scenes.files()
@@ -65,7 +70,7 @@ def main():
         return 1 if uncovered(catalogue) else 0
     folder = scratch / f"scene-{what}"
     folder.mkdir(parents=True, exist_ok=True)
-    text, files = scene_of(catalogue, what)
+    text, files = scene_of(catalogue, what, is_exact)
     for name, content in files.items():
         # Vertex colours only if all targets support them.
         (folder / name).write_bytes(re.sub(rb"(?m)^(v( \S+){3}).*", rb"\1", content) if is_exact or is_own else content)

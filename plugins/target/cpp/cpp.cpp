@@ -21,6 +21,7 @@
 #include "candela/target_plugin.h"
 #include "lights.h"
 #include "objects.h"
+#include "shadows.h"
 #include "textures.h"
 #include "vectors.h"
 
@@ -38,14 +39,19 @@ namespace {
 class CppWriter {
   public:
     explicit CppWriter(const ExportedScene& scene)
-        : scene_(scene), lights_(lights_of(scene)), objects_(scene), textures_(textures_of(scene)) {}
+        : scene_(scene),
+          lights_(lights_of(scene)),
+          objects_(scene),
+          textures_(textures_of(scene)),
+          shadows_(shadow_texts(scene)) {}
 
     std::string run() {
         require_different_names(scene_);
         const std::string text = candela_cpp_scene;
-        const std::string glue = lights_.constants + lights_.loops + reflection() + shading() +
-                                 if_triangles(k_triangle_of) + textures_.declarations + textures_.seen +
-                                 objects_.shapes() + objects_.statements() + text;
+        std::string glue = lights_.constants + lights_.loops + reflection() + shading() +
+                           if_triangles(k_triangle_of) + textures_.declarations + textures_.seen +
+                           objects_.shapes() + objects_.statements() + text;
+        for (const auto& [name, part] : shadows_) glue += part;
         std::string kernels = model_kernels();
         const std::string library = vectors_for(kernels + textures_.declarations);
         kernels = needed_parts(kernel_prelude(), kernels + glue) + "\n" + kernels;
@@ -56,75 +62,76 @@ class CppWriter {
         const ExportedImage& image = scene_.image;
         const ExportedObserver& observer = scene_.observer;
         const bool is_perspective = observer.projection == Projection::perspective;
-        return filled(
-            text,
-            {{"TITLE", ascii_identifier(scene_.title)},
-             {"VERSION", CANDELA_PLUGIN_VERSION},
-             {"VECTORS", vectors + (has_tables ? "\n" + std::string(candela_cpp_tables) : "")},
-             {"CONSTRUCTORS", constructors(kernels)},
-             {"KERNELS", kernels},
-             {"DECODED_COMMENT",
-              is_srgb
-                  ? "// Colours are encoded as sRGB (IEC 61966-2-1); light is added up in linear intensities."
-                  : "// Colours are used as intensities without conversion."},
-             {"DECODED",
-              is_srgb ? "c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f)" : "c"},
-             {"ENCODED_COMMENT",
-              is_srgb ? "// And back to sRGB." : "// Intensities are used without conversion."},
-             {"ENCODED",
-              is_srgb ? "x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f" : "x"},
-             {"WIDTH", fmt::format("{}", image.width)},
-             {"HEIGHT", fmt::format("{}", image.height)},
-             {"BACKGROUND", list(image.background.x, image.background.y, image.background.z)},
-             {"SAMPLES", samples()},
-             {"EYE", vec3_text(observer.position)},
-             {"LOOK_AT", vec3_text(observer.look_at)},
-             {"UP", vec3_text(observer.up)},
-             {"IS_PERSPECTIVE", is_perspective ? "true" : "false"},
-             {"VIEW_SIZE",
-              is_perspective
-                  ? fmt::format(
-                        "const double k_field_of_view = {};  // degrees from top to bottom\n"
-                        "const double k_pixels_per_unit = 0.5 * k_height / std::tan(0.5 * k_field_of_view * "
-                        "0.017453292519943295);",
-                        observer.fov)
-                  : fmt::format("const double k_view_height = {};  // metres from top to bottom\n"
-                                "const double k_pixels_per_unit = k_height / k_view_height;",
-                                observer.height)},
-             {"LIGHTS", lights_.constants},
-             {"ENUMS", enums()},
-             {"OBJECT_MEMBERS", members()},
-             {"SHAPES", objects_.shapes()},
-             {"OBJECTS", objects_.statements()},
-             {"SHADING", shading()},
-             {"REFLECTION", reflection()},
-             {"LIGHT_LOOPS", lights_.loops},
-             {"TANGENT", tangent()},
-             {"MESH_COLOR",
-              if_colors("    std::vector<vec3> color;          // per vertex, multiplied by the object's, or "
-                        "empty\n")},
-             {"TEXTURES", textures_.declarations},
-             {"TEXTURE_SEEN", textures_.seen},
-             {"TINT_PARAMETER", tint().empty() ? "" : ", vec3 tint"},
-             {"TIMES_TINT", tint().empty() ? "" : " * tint"},
-             {"TINT_WITHIN", tint("(m.color.empty() ? vec3(1.0f) : blend(m.color, m, triangle, b))",
-                                  "texture_within(o, triangle, b)")},
-             {"TINT_AT_VERTEX",
-              tint("(o.mesh.color.empty() ? vec3(1.0f) : o.mesh.color[v])", "texture_at_vertex(o, v)")},
-             {"TRIANGLE_OF", if_triangles(k_triangle_of)},
-             {"TRIANGLE_PARAMETER", if_triangles(", const Triangle& triangle")},
-             {"TRIANGLE_ARGUMENT", if_triangles(", triangle")},
-             {"THIS_TRIANGLE", if_triangles(", triangle_of(o, triangle)")},
-             {"NO_TRIANGLE", if_triangles(", {}")},
-             {"PICTURE_FILE", std::string(image_file_source())},
-             {"USAGE", arguments.usage},
-             {"HELP", arguments.help},
-             {"MAIN", arguments.main},
-             {"DATA", (has_tables ? table_numbers() : "") +
-                          (objects_.data().empty() ? ""
-                                                   : "\n// ---- 8. The triangles of shapes without a formula "
-                                                     "----\n\nnamespace scene {\n" +
-                                                         objects_.data() + "\n}  // namespace scene\n")}});
+        Values values = {
+            {"TITLE", ascii_identifier(scene_.title)},
+            {"VERSION", CANDELA_PLUGIN_VERSION},
+            {"VECTORS", vectors + (has_tables ? "\n" + std::string(candela_cpp_tables) : "")},
+            {"CONSTRUCTORS", constructors(kernels)},
+            {"KERNELS", kernels},
+            {"DECODED_COMMENT",
+             is_srgb
+                 ? "// Colours are encoded as sRGB (IEC 61966-2-1); light is added up in linear intensities."
+                 : "// Colours are used as intensities without conversion."},
+            {"DECODED", is_srgb ? "c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f)" : "c"},
+            {"ENCODED_COMMENT",
+             is_srgb ? "// And back to sRGB." : "// Intensities are used without conversion."},
+            {"ENCODED",
+             is_srgb ? "x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f" : "x"},
+            {"WIDTH", fmt::format("{}", image.width)},
+            {"HEIGHT", fmt::format("{}", image.height)},
+            {"BACKGROUND", list(image.background.x, image.background.y, image.background.z)},
+            {"SAMPLES", samples()},
+            {"EYE", vec3_text(observer.position)},
+            {"LOOK_AT", vec3_text(observer.look_at)},
+            {"UP", vec3_text(observer.up)},
+            {"IS_PERSPECTIVE", is_perspective ? "true" : "false"},
+            {"VIEW_SIZE",
+             is_perspective
+                 ? fmt::format(
+                       "const double k_field_of_view = {};  // degrees from top to bottom\n"
+                       "const double k_pixels_per_unit = 0.5 * k_height / std::tan(0.5 * k_field_of_view * "
+                       "0.017453292519943295);",
+                       observer.fov)
+                 : fmt::format("const double k_view_height = {};  // metres from top to bottom\n"
+                               "const double k_pixels_per_unit = k_height / k_view_height;",
+                               observer.height)},
+            {"LIGHTS", lights_.constants},
+            {"ENUMS", enums()},
+            {"OBJECT_MEMBERS", members()},
+            {"SHAPES", objects_.shapes()},
+            {"OBJECTS", objects_.statements()},
+            {"SHADING", shading()},
+            {"REFLECTION", reflection()},
+            {"LIGHT_FLAGS", lights_.flags},
+            {"LIGHT_LOOPS", lights_.loops},
+            {"TANGENT", tangent()},
+            {"MESH_COLOR",
+             if_colors("    std::vector<vec3> color;          // per vertex, multiplied by the object's, or "
+                       "empty\n")},
+            {"TEXTURES", textures_.declarations},
+            {"TEXTURE_SEEN", textures_.seen},
+            {"TINT_PARAMETER", tint().empty() ? "" : ", vec3 tint"},
+            {"TIMES_TINT", tint().empty() ? "" : " * tint"},
+            {"TINT_WITHIN", tint("(m.color.empty() ? vec3(1.0f) : blend(m.color, m, triangle, b))",
+                                 "texture_within(o, triangle, b)")},
+            {"TINT_AT_VERTEX",
+             tint("(o.mesh.color.empty() ? vec3(1.0f) : o.mesh.color[v])", "texture_at_vertex(o, v)")},
+            {"TRIANGLE_OF", if_triangles(k_triangle_of)},
+            {"TRIANGLE_PARAMETER", if_triangles(", const Triangle& triangle")},
+            {"TRIANGLE_ARGUMENT", if_triangles(", triangle")},
+            {"THIS_TRIANGLE", if_triangles(", triangle_of(o, triangle)")},
+            {"NO_TRIANGLE", if_triangles(", {}")},
+            {"PICTURE_FILE", std::string(image_file_source())},
+            {"USAGE", arguments.usage},
+            {"HELP", arguments.help},
+            {"MAIN", arguments.main},
+            {"DATA", (has_tables ? table_numbers() : "") +
+                         (objects_.data().empty() ? ""
+                                                  : "\n// ---- 8. The triangles of shapes without a formula "
+                                                    "----\n\nnamespace scene {\n" +
+                                                        objects_.data() + "\n}  // namespace scene\n")}};
+        values.insert(values.end(), shadows_.begin(), shadows_.end());
+        return filled(text, views_of(values));
     }
 
   private:
@@ -324,6 +331,7 @@ class CppWriter {
     LightTexts lights_;
     CppObjects objects_;
     TextureTexts textures_;
+    Values shadows_;
 };
 
 class CppTarget final : public Target {
@@ -331,7 +339,7 @@ class CppTarget final : public Target {
     explicit CppTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.triangle = true, .vertex_colors = true, .textures = true};
+        return {.triangle = true, .vertex_colors = true, .textures = true, .shadows = true};
     }
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::write(files, main_file(), CppWriter(scene).run());

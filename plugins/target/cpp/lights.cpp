@@ -2,10 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <regex>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "candela/target/kernels.h"
 #include "candela/target/literals.h"
+#include "shadows.h"
 
 namespace candela::cpp_target {
 
@@ -34,38 +40,150 @@ std::string constants(const ExportedScene& scene) {
     return text;
 }
 
+/// Whether the model's kernel has that function, which the descriptor need not list.
+bool has_kernel_function(const ExportedModel& model, std::string_view name) {
+    const KernelText& kernel = model.plugin->kernel;
+    const std::regex declared(fmt::format("\\b{}_{}\\s*\\(", kernel.prefix, name));
+    return std::regex_search(without_comments(kernel.text), declared);
+}
+
+/// The statements that add up the light of a model's lights.
+class LightLoop {
+  public:
+    LightLoop(const ExportedScene& scene, std::size_t model) : model_(scene.light_models[model]) {
+        for (const ExportedLight& light : scene.lights) {
+            if (light.model != model) continue;
+            const bool casts = scene.has_shadows && light.casts_shadows;
+            ++(casts ? casting_ : others_);
+            has_extents_ = has_extents_ || has_penumbras(scene, light);
+            has_occlusion_ = has_occlusion_ || (scene.has_shadows && light.ambient_occlusion_rays > 0);
+            const bool is_source =
+                std::ranges::any_of(light.punctual, [](const auto& p) { return p.w != 0; });
+            is_placed_ = is_placed_ || (casts && is_source);
+        }
+        is_placed_ = is_placed_ || has_function(model_, "distance");
+        for (const auto& [is_needed, function] :
+             {std::pair(has_extents_, "extent"),
+              std::pair(is_placed_ && !has_function(model_, "distance"), "punctual")}) {
+            if (is_needed && !has_kernel_function(model_, function))
+                throw std::runtime_error(fmt::format(
+                    "{} is data that its kernel does not describe (there is no function {}_{}), so a C++ "
+                    "program cannot find its shadows",
+                    model_.id, model_.plugin->kernel.prefix, function));
+        }
+    }
+
+    /// How the single lights cast shadows, where they differ.
+    std::string flags(const ExportedScene& scene, std::size_t model) const {
+        std::string casts, occlusion;
+        if (!is_mixed() && !has_occlusion_) return "";
+        for (const ExportedLight& light : scene.lights) {
+            if (light.model != model) continue;
+            casts += fmt::format("{}{}", casts.empty() ? "" : ", ", light.casts_shadows);
+            occlusion +=
+                fmt::format("{}{{{}, {}}}", occlusion.empty() ? "" : ", ", light.ambient_occlusion_rays,
+                            float_text(light.ambient_occlusion_distance));
+        }
+        std::string text;
+        if (is_mixed())
+            text += fmt::format("const std::vector<bool> {} = {{{}}};\n\n", named("casts_shadows"), casts);
+        if (has_occlusion_)
+            text += fmt::format("const std::vector<AmbientOcclusion> {} = {{{}}};\n\n", named("occlusion"),
+                                occlusion);
+        return text;
+    }
+
+    std::string text() const {
+        std::string text = head();
+        if (has_function(model_, "sample_count")) {
+            text += fmt::format("        for (int k = 0; k < {}; ++k) {{\n",
+                                call(model_, "sample_count", "light", "")) +
+                    sample("            ", "k") + "        }\n";
+        } else if (has_function(model_, "illuminate")) {
+            text += sample("        ", "");
+        }
+        if (has_function(model_, "illuminate_ambient"))
+            text +=
+                fmt::format("        sum += {}reflected_ambient(o, s) * {};\n",
+                            has_occlusion_ ? fmt::format("open_part(at, {}[n]) * ", named("occlusion")) : "",
+                            call(model_, "illuminate_ambient", "light", "r"));
+        return text + "    }\n";
+    }
+
+  private:
+    bool is_mixed() const { return casting_ > 0 && others_ > 0 && has_function(model_, "illuminate"); }
+    std::string named(const char* what) const {
+        return fmt::format("k_{}_{}", model_.plugin->kernel.prefix, what);
+    }
+
+    std::string head() const {
+        const std::string lights = named("lights");
+        if (!has_parameters(model_)) return fmt::format("    for (int n = 0; n < {}; ++n) {{\n", lights);
+        const std::string type = constants_type(model_);
+        if (!is_mixed() && !has_occlusion_)
+            return fmt::format("    for (const {}& light : {}) {{\n", type, lights);
+        return fmt::format(
+            "    for (std::size_t n = 0; n < {0}.size(); ++n) {{\n        const {1}& light = {0}[n];\n",
+            lights, type);
+    }
+
+    /// `index`: of the sample, if the light has several.
+    std::string sample(const char* indent, const std::string& index) const {
+        const auto arguments = [&](const std::string& first) {
+            return index.empty() ? first : first + ", " + index;
+        };
+        std::string text, receiver = "r";
+        if (has_extents_) {
+            receiver = "from";
+            const std::string moved =
+                fmt::format("displaced(r, at, {}_extent({}), {})", model_.plugin->kernel.prefix,
+                            arguments("light"), index.empty() ? "0" : index);
+            text += fmt::format(
+                "{}const Receiver from = {};\n", indent,
+                is_mixed() ? fmt::format("{}[n] ? {} : r", named("casts_shadows"), moved) : moved);
+        }
+        text +=
+            fmt::format("{0}const Incident i = {1};\n{0}const Reflected f = reflected(o, s, i.to_light);\n",
+                        indent, call(model_, "illuminate", "light", arguments(receiver)));
+        if (casting_ == 0)
+            return text + fmt::format("{}sum += f.diffuse * i.diffuse + f.specular * i.specular;\n", indent);
+        const std::string left = fmt::format("unblocked(at, i.to_light, {})", distance(receiver, arguments));
+        return text + fmt::format(
+                          "{}const float left = {};\n{}sum += left * (f.diffuse * i.diffuse + f.specular * "
+                          "i.specular);\n",
+                          indent,
+                          is_mixed() ? fmt::format("{}[n] ? {} : 1.0f", named("casts_shadows"), left) : left,
+                          indent);
+    }
+
+    template <class Arguments>
+    std::string distance(const std::string& receiver, const Arguments& arguments) const {
+        if (!is_placed_) return "k_infinitely_far";
+        if (has_function(model_, "distance")) return call(model_, "distance", "light", arguments(receiver));
+        return fmt::format("length({}_punctual({}).position - {}.position)", model_.plugin->kernel.prefix,
+                           arguments("light"), receiver);
+    }
+
+    const ExportedModel& model_;
+    int casting_ = 0, others_ = 0;  // lights that cast shadows, and those that do not
+    bool has_extents_ = false, has_occlusion_ = false;
+    bool is_placed_ = false;  // at a distance
+};
+
+std::string flags(const ExportedScene& scene) {
+    std::string text;
+    for (std::size_t m = 0; m < scene.light_models.size(); ++m) text += LightLoop(scene, m).flags(scene, m);
+    return text;
+}
+
 std::string loops(const ExportedScene& scene) {
     std::string text;
-    for (const ExportedModel& model : scene.light_models) {
-        const KernelText& kernel = model.plugin->kernel;
-        text += has_parameters(model)
-                    ? fmt::format("    for (const {}& light : k_{}_lights) {{\n", constants_type(model),
-                                  kernel.prefix)
-                    : fmt::format("    for (int n = 0; n < k_{}_lights; ++n) {{\n", kernel.prefix);
-        const std::string add =
-            "const Reflected f = reflected(o, s, i.to_light);\n{0}sum += f.diffuse * i.diffuse + "
-            "f.specular * i.specular;\n";
-        if (has_function(model, "sample_count")) {
-            text += fmt::format(
-                "        for (int k = 0; k < {}; ++k) {{\n            const Incident i = {};\n           "
-                " ",
-                call(model, "sample_count", "light", ""), call(model, "illuminate", "light", "r, k"));
-            text += fmt::format(fmt::runtime(add), "            ") + "        }\n";
-        } else if (has_function(model, "illuminate")) {
-            text += fmt::format("        const Incident i = {};\n        ",
-                                call(model, "illuminate", "light", "r"));
-            text += fmt::format(fmt::runtime(add), "        ");
-        }
-        if (has_function(model, "illuminate_ambient"))
-            text += fmt::format("        sum += reflected_ambient(o, s) * {};\n",
-                                call(model, "illuminate_ambient", "light", "r"));
-        text += "    }\n";
-    }
+    for (std::size_t m = 0; m < scene.light_models.size(); ++m) text += LightLoop(scene, m).text();
     return text.empty() ? "    (void)o, (void)s, (void)r;  // there are no lights\n" : text;
 }
 
 }  // namespace
 
-LightTexts lights_of(const ExportedScene& scene) { return {constants(scene), loops(scene)}; }
+LightTexts lights_of(const ExportedScene& scene) { return {constants(scene), flags(scene), loops(scene)}; }
 
 }  // namespace candela::cpp_target

@@ -11,6 +11,7 @@
 #include "candela/target/arrays.h"
 #include "candela/target/kernels.h"
 #include "candela/target/literals.h"
+#include "shadows.h"
 
 CANDELA_EMBED(candela_cpp_grid, CANDELA_SOURCE_DIR "/templates/grid.h");
 CANDELA_EMBED(candela_cpp_arrays, CANDELA_SOURCE_DIR "/templates/arrays.h");
@@ -62,6 +63,7 @@ void CppObjects::add_object(std::size_t index) {
     const ExportedObject& object = scene_.objects[index];
     require_default_normals(index);
     const ExportedMesh mesh = scene_.geometry->in_object_space(index);
+    const bool is_solid = mesh.is_solid;
     std::optional<GridShape> grid;
     if (has_function(object.shape, "position") && !mesh.color) grid = grid_of(mesh);
     if (grid) shape_models_.push_back(object.shape);
@@ -93,6 +95,11 @@ void CppObjects::add_object(std::size_t index) {
         add(scene_.reflections[i], material_member(scene_.reflections[i]), object.materials[i]);
     for (std::size_t i = 0; i < scene_.shadings.size(); ++i)
         add(scene_.shadings[i], shading_member(scene_.shadings[i]), object.shadings[i]);
+    if (casts_shadows(scene_)) {
+        if (!object.casts_shadows) text += "        o.casts_shadows = false;\n";
+        if (!object.receives_shadows) text += "        o.receives_shadows = false;\n";
+        if (!is_solid) text += "        o.is_solid = false;\n";
+    }
     statements_ += text + "        all.push_back(o);\n    }\n";
 }
 

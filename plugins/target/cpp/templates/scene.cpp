@@ -76,6 +76,7 @@ struct Object {
     vec3 scale = vec3(1.0f);
     vec3 color;
 @OBJECT_MEMBERS@
+@SHADOW_MEMBERS@
     std::vector<vec3> vertex_normal, face_normal;
 };
 
@@ -197,15 +198,17 @@ void draw_triangle(const Object& o, int object, int triangle, vec2 offset, doubl
 
 @REFLECTION@
 
+@SHADOWS@
+@LIGHT_FLAGS@
 // The sum over all lights at a place: ambient, diffuse and specular light.
-vec3 lights_at(const Object& o, const Surface& s, const Receiver& r) {
+vec3 lights_at(const Object& o, const Surface& s, const Receiver& r@PLACE_PARAMETER@) {
     vec3 sum(0.0f);
 @LIGHT_LOOPS@
     return sum;
 }
 
 // The intensity that a place of an object sends to the observer.
-vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@TINT_PARAMETER@, bool is_back) {
+vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@TINT_PARAMETER@, bool is_back@PIXEL_PARAMETER@) {
     Surface s;
     s.normal = (is_back ? -1.0f : 1.0f) * shading_normal(o, point@TRIANGLE_ARGUMENT@);
     s.to_observer = k_is_perspective ? normalize(k_eye - place) : -k_forward;
@@ -214,7 +217,7 @@ vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGL
     Receiver r;
     r.position = place;
     r.normal = s.normal;
-    return lights_at(o, s, r);
+    return lights_at(o, s, r@PLACE@);
 }
 
 template <class T>
@@ -227,7 +230,7 @@ T blend(const std::vector<T>& values, const Mesh& mesh, int triangle, vec3 b) {
 
 @TRIANGLE_OF@
 @TEXTURE_SEEN@
-vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back) {
+vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back@PIXEL_PARAMETER@) {
     const Mesh& m = o.mesh;
     ShadingPoint p;
     p.face_normal = o.face_normal[static_cast<std::size_t>(triangle)];
@@ -236,10 +239,10 @@ vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back) {
     p.uv = blend(m.uv, m, triangle, b);
     p.dpdu = blend(m.dpdu, m, triangle, b);
     p.dpdv = blend(m.dpdv, m, triangle, b);
-    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@TINT_WITHIN@, is_back);
+    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@TINT_WITHIN@, is_back@PIXEL_ARGUMENT@);
 }
 
-vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back) {
+vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back@TREE_PARAMETER@) {
     const auto at = [&](const std::vector<vec3>& values) { return values.empty() ? vec3(0.0f) : values[v]; };
     ShadingPoint p;
     p.face_normal = p.vertex_normal = o.vertex_normal[v];
@@ -247,14 +250,14 @@ vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back) {
     p.uv = o.mesh.uv.empty() ? vec2(0.0f) : o.mesh.uv[v];
     p.dpdu = at(o.mesh.dpdu);
     p.dpdv = at(o.mesh.dpdv);
-    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@TINT_AT_VERTEX@, is_back);
+    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@TINT_AT_VERTEX@, is_back@NO_PIXEL@);
 }
 
-vec3 intensity_seen(const Object& o, const Seen& seen) {
-    if (rate_of(o) == Rate::pixel) return intensity_within(o, seen.triangle, seen.barycentric, seen.is_back);
-    if (rate_of(o) == Rate::face) return intensity_within(o, seen.triangle, vec3(1.0f / 3.0f), seen.is_back);
+vec3 intensity_seen(const Object& o, const Seen& seen@PIXEL_PARAMETER@) {
+    if (rate_of(o) == Rate::pixel) return intensity_within(o, seen.triangle, seen.barycentric, seen.is_back@PIXEL_ARGUMENT@);
+    if (rate_of(o) == Rate::face) return intensity_within(o, seen.triangle, vec3(1.0f / 3.0f), seen.is_back@NO_PIXEL@);
     const int* const v = &o.mesh.corners[3 * static_cast<std::size_t>(seen.triangle)];
-    const auto at = [&](int k) { return intensity_at_vertex(o, static_cast<std::size_t>(v[k]), seen.is_back); };
+    const auto at = [&](int k) { return intensity_at_vertex(o, static_cast<std::size_t>(v[k]), seen.is_back@TREE_ARGUMENT@); };
     return seen.barycentric.x * at(0) + seen.barycentric.y * at(1) + seen.barycentric.z * at(2);
 }
 
@@ -272,6 +275,7 @@ double near_distance(const std::vector<Object>& objects) {
 
 std::vector<vec3> render(const std::vector<Object>& objects) {
     const double near = near_distance(objects);
+@SHADOW_TREE@
     std::vector<vec3> picture(static_cast<std::size_t>(k_width) * k_height);
     for (const vec2& sample : k_samples) {
         std::vector<Seen> seen(picture.size());
@@ -280,7 +284,7 @@ std::vector<vec3> render(const std::vector<Object>& objects) {
                 draw_triangle(objects[o], static_cast<int>(o), static_cast<int>(t), sample, near, seen);
         }
         for (std::size_t i = 0; i < picture.size(); ++i) {
-            const vec3 intensity = seen[i].object < 0 ? k_background : intensity_seen(objects[static_cast<std::size_t>(seen[i].object)], seen[i]);
+            const vec3 intensity = seen[i].object < 0 ? k_background : intensity_seen(objects[static_cast<std::size_t>(seen[i].object)], seen[i]@THIS_PIXEL@);
             picture[i] += intensity / static_cast<float>(k_samples.size());
         }
     }
