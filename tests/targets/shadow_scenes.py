@@ -73,7 +73,7 @@ def scene_text(reflections, number, is_exact):
         text += "[[light]]\n" + light.format(x=round(chance.uniform(-1, 1), 2))
         if kind == 0 and number % 2 == 0 and not is_exact:
             text += "ambient_occlusion_rays = 12\nambient_occlusion_distance = 1.5\n"
-        if kind == 1 and number == 2:
+        if kind == 1 and number == 2 and not is_exact:
             text += "casts_shadows = false\n"
     shadings = ["phong"] if is_exact else ["phong", "gouraud", "flat"]
     return text + objects_text(reflections, shadings, number, is_exact, chance)

@@ -64,6 +64,8 @@ class Writer {
         const ExportedObject& object = scene_.objects[index];
         const ExportedShading& shading = scene_.shadings[object.shading];
         target::approximate_shading(shading, files_);
+        if (scene_.has_shadows && !(object.casts_shadows && object.receives_shadows))
+            files_.approximate("every object casts and receives shadows, or none does");
         const ExportedMesh mesh = scene_.geometry->in_world_space(index);
         if (mesh.indices.empty()) return;
         const std::size_t count = mesh.vertex_count;
@@ -96,7 +98,11 @@ class GltfTarget final : public Target {
     explicit GltfTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.models_without_kernel = true, .triangle = true, .vertex_colors = true, .textures = true};
+        return {.models_without_kernel = true,
+                .triangle = true,
+                .vertex_colors = true,
+                .textures = true,
+                .shadows = true};  // programs that show the file cast their own
     }
     const char* main_file() const noexcept override { return "scene.glb"; }
 

@@ -312,3 +312,12 @@ direction = [0, -1, 0]
         CHECK(count_of(accepted.err, name) == 1);
     }
 }
+
+TEST_CASE(
+    "target/gltf: shadows are the showing program's, and only what differs by object or light is refused") {
+    const Folder folder = folder_with_leaf();
+    const std::string scene = std::string(k_scene) + "[shadows]\nenabled = true\n";
+    expect(generate(folder, scene), 0);
+    expect(generate(folder, scene, {"--set=object.leaf.casts_shadows=false"}), 1, {"every object casts"});
+    expect(generate(folder, scene, {"--set=light.lamp.casts_shadows=false"}), 1, {"every light casts"});
+}

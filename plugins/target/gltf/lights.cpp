@@ -68,6 +68,8 @@ class Lights {
     void add(const ExportedLight& light) {
         const std::string model = scene_.light_models[light.model].id;
         if (!light.is_data) return leave_out(model);
+        if (scene_.has_shadows && !light.casts_shadows && !light.punctual.empty())
+            files_.approximate("every light casts shadows, or none does");
         if (!(light.ambient == Rgb{})) leave_out(model);
         for (const PunctualLight& sample : light.punctual) add(light, sample, model);
     }

@@ -58,8 +58,9 @@ std::string cone_of(const PunctualLight& light, const std::string& model, FileSi
                        degrees(light.cos_outer + width), degrees(light.cos_outer));
 }
 
+/// `keywords`: at the end of the statement.
 std::string light_text(const ExportedScene& scene, const PunctualLight& light, const std::string& model,
-                       FileSink& files) {
+                       const std::string& keywords, FileSink& files) {
     const Rgb color = light.diffuse;
     if (!(light.diffuse == light.specular))
         files.approximate(fmt::format("{} has highlights of its diffuse light's colour", model).c_str());
@@ -67,12 +68,13 @@ std::string light_text(const ExportedScene& scene, const PunctualLight& light, c
     if (light.w == 0) {
         // The light is outside the room; its rays are parallel to the one towards the origin.
         const float distance = 2 * std::max(length(scene.room), 100.0f);
-        return fmt::format("light_source {{ {} {} parallel point_at <0, 0, 0> }}\n",
-                           vector_text(distance * light.position), rgb);
+        return fmt::format("light_source {{ {} {} parallel point_at <0, 0, 0>{} }}\n",
+                           vector_text(distance * light.position), rgb, keywords);
     }
     const Fading fading = fading_of(light, model, files);
-    return fmt::format("light_source {{ {} {}{}{}{}{} }}\n", vector_text(light.position), rgb, fading.scale,
-                       fading.keywords.empty() ? "" : " ", fading.keywords, cone_of(light, model, files));
+    return fmt::format("light_source {{ {} {}{}{}{}{}{} }}\n", vector_text(light.position), rgb, fading.scale,
+                       fading.keywords.empty() ? "" : " ", fading.keywords, cone_of(light, model, files),
+                       keywords);
 }
 
 }  // namespace
@@ -95,10 +97,11 @@ std::string lights_text(const ExportedScene& scene, FileSink& files) {
             continue;
         }
         if (light.punctual.empty()) continue;
+        const bool is_global = !scene.has_shadows || light.casts_shadows;
         text += fmt::format("\n// {}: {}\n", target::ascii_identifier(light.label),
                             target::ascii_identifier(model.plugin->name));
         for (const PunctualLight& sample : light.punctual) {
-            text += light_text(scene, sample, model.id, files);
+            if (is_global) text += light_text(scene, sample, model.id, "", files);
             needs_near = needs_near || (sample.w != 0 && sample.quadratic > 0);
         }
     }
@@ -109,6 +112,19 @@ std::string lights_text(const ExportedScene& scene, FileSink& files) {
                "// than all distances, and the colour is multiplied accordingly.\n#declare {} = 1e-4;\n",
                k_near) +
            text;
+}
+
+std::string unblocked_lights_text(const ExportedScene& scene, const std::string& shell, bool are_all,
+                                  FileSink& files) {
+    std::string text;
+    for (const ExportedLight& light : scene.lights) {
+        if (light.casts_shadows && !are_all) continue;
+        for (const PunctualLight& sample : light.punctual)
+            text +=
+                "    " + light_text(scene, sample, scene.light_models[light.model].id,
+                                    fmt::format(" projected_through {{ object {{ {} }} }}", shell), files);
+    }
+    return text;
 }
 
 }  // namespace candela::povray_target

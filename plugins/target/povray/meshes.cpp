@@ -13,7 +13,9 @@
 
 #include "candela/target/literals.h"
 #include "candela/target/renderers.h"
+#include "lights.h"
 #include "material.h"
+#include "shadows.h"
 #include "triangles.h"
 
 namespace candela::povray_target {
@@ -56,7 +58,7 @@ class Statement {
         }
         text_ += "\n    }\n";
     }
-    std::string ended_with(const std::string& material) { return text_ + material + "    no_shadow\n}\n"; }
+    std::string ended_with(const std::string& rest) { return text_ + rest + "}\n"; }
 
   private:
     void begin(const char* name, std::size_t count) {
@@ -96,8 +98,8 @@ class VertexMaterials {
     std::string declarations_;
 };
 
-/// `material`: of all vertices, except for what their `colors` determine.
-std::string mesh2_text(const std::string& comment, Triangles triangles, const std::string& material,
+/// `rest`: the material of all vertices, except for what their `colors` determine, and keywords.
+std::string mesh2_text(const std::string& comment, Triangles triangles, const std::string& rest,
                        const VertexMaterials* colors = nullptr) {
     if (triangles.indices.empty()) return "";
     keep_equal_normals(triangles);
@@ -112,7 +114,7 @@ std::string mesh2_text(const std::string& comment, Triangles triangles, const st
         statement.add("face_indices", triangles.indices);
     }
     if (!triangles.normal_indices.empty()) statement.add("normal_indices", triangles.normal_indices);
-    return statement.ended_with(material);
+    return statement.ended_with(rest);
 }
 
 Vec3 mean_of(std::span<const Vec3> colors) {
@@ -123,41 +125,85 @@ Vec3 mean_of(std::span<const Vec3> colors) {
 
 /// A mesh with colours at its vertices.
 std::string colored_mesh_text(const ExportedScene& scene, std::size_t object, const std::string& name,
-                              Triangles triangles, FileSink& files) {
+                              Triangles triangles, const char* keywords, FileSink& files) {
     const VertexMaterials colors(scene, object, triangles.colors, files);
     Triangles outline;
     if (!triangles.normals.empty()) outline = split_off_outline(triangles, scene.observer);
-    std::string text = colors.declarations() + mesh2_text(name, std::move(triangles), "", &colors);
+    std::string text = colors.declarations() + mesh2_text(name, std::move(triangles), keywords, &colors);
     if (outline.indices.empty()) return text;
     files.approximate("near the outline of an object, the colours at its vertices may be their mean");
     const Material mean = material_at_vertex(scene, object, mean_of(outline.colors), files);
     return text + mesh2_text(name + ", its triangles at the outline, as the observer sees them",
-                             std::move(outline), mean.front + mean.turned, &colors);
+                             std::move(outline), mean.front + mean.turned + keywords, &colors);
 }
 
-}  // namespace
-
-std::string mesh_text(const ExportedScene& scene, std::size_t index, FileSink& files) {
+/// The visible surface of an object. `keywords`: at the end of its statements.
+std::string visible_text(const ExportedScene& scene, std::size_t index, const ExportedMesh& mesh,
+                         const std::string& name, const char* keywords, FileSink& files) {
     const ExportedObject& object = scene.objects[index];
     const ExportedShading& shading = scene.shadings[object.shading];
     target::approximate_shading(shading, files);
-    const ExportedMesh mesh = scene.geometry->in_world_space(index);
-    const std::string name = fmt::format("{}: {}", target::ascii_identifier(object.label),
-                                         target::ascii_identifier(object.shape.plugin->name));
     const bool is_textured = object.color_texture != ExportedObject::k_no_texture;
     if (is_textured && mesh.color)
         files.approximate("the colours at the vertices of objects with a texture are left out");
     const bool has_faces = shading.rate == ShadingRate::face;
     Triangles triangles = triangles_of(
         mesh, has_faces ? ConstVec3Span{} : mesh.normals[mesh.normals_of[object.shading]], is_textured);
-    if (!triangles.colors.empty()) return colored_mesh_text(scene, index, name, std::move(triangles), files);
+    if (!triangles.colors.empty())
+        return colored_mesh_text(scene, index, name, std::move(triangles), keywords, files);
     const Material material = material_of(scene, index, files);
-    if (has_faces) return mesh2_text(name, std::move(triangles), material.front);
-    if (mesh.closed) return mesh2_text(name, std::move(triangles), material.front + material.turned);
+    if (has_faces) return mesh2_text(name, std::move(triangles), material.front + keywords);
+    if (mesh.closed)
+        return mesh2_text(name, std::move(triangles), material.front + material.turned + keywords);
     Triangles outline = split_off_outline(triangles, scene.observer);
-    return mesh2_text(name, std::move(triangles), material.front) +
+    return mesh2_text(name, std::move(triangles), material.front + keywords) +
            mesh2_text(name + ", its triangles at the outline, as the observer sees them", std::move(outline),
-                      material.front + material.turned);
+                      material.front + material.turned + keywords);
+}
+
+Triangles blocking_triangles(const ExportedMesh& mesh) {
+    Triangles triangles = triangles_of(mesh, {}, false);
+    triangles.colors.clear();
+    return triangles;
+}
+
+/// The triangles of an object as they block light, without being seen. The texture of the side on which a
+/// shadow ray meets a surface stops it, or lets it pass: light leaves a solid object. POV-Ray looks at that
+/// only if the outer texture is not quite opaque.
+std::string blocker_text(const ExportedMesh& mesh, const std::string& name) {
+    const char* const textures = mesh.is_solid ? "    texture { pigment { rgb 0 transmit 1e-9 } }\n"
+                                                 "    interior_texture { pigment { rgbt 1 } }\n"
+                                               : "    texture { pigment { rgb 0 } }\n";
+    return mesh2_text(name + ", as it blocks light", blocking_triangles(mesh),
+                      std::string(textures) + "    no_image no_reflection\n");
+}
+
+/// The visible surface of an object, in a group with the lights that nothing blocks.
+std::string group_text(const ExportedScene& scene, std::size_t index, const ExportedMesh& mesh,
+                       const std::string& visible, FileSink& files) {
+    const ExportedObject& object = scene.objects[index];
+    const std::string shell = fmt::format("Shell_{}", index);
+    std::string text = mesh2_text("light that reaches this shell is not blocked before", shell_of(mesh), "");
+    text.insert(text.find("mesh2"), fmt::format("#declare {} = ", shell));
+    return text + fmt::format("light_group {{\n{}{}    global_lights {}\n}}\n",
+                              unblocked_lights_text(scene, shell, !object.receives_shadows, files), visible,
+                              object.receives_shadows ? "on" : "off");
+}
+
+}  // namespace
+
+std::string mesh_text(const ExportedScene& scene, std::size_t index, FileSink& files) {
+    const ExportedObject& object = scene.objects[index];
+    const ExportedMesh mesh = scene.geometry->in_world_space(index);
+    const std::string name = fmt::format("{}: {}", target::ascii_identifier(object.label),
+                                         target::ascii_identifier(object.shape.plugin->name));
+    if (!scene.has_shadows) return visible_text(scene, index, mesh, name, "    no_shadow\n", files);
+    approximate_shadows(scene, index, mesh, files);
+    const bool is_grouped = has_unblocked_lights(scene, object);
+    const bool blocks_itself = object.casts_shadows && !mesh.is_solid && !is_grouped;
+    std::string text = visible_text(scene, index, mesh, name, blocks_itself ? "" : "    no_shadow\n", files);
+    if (is_grouped) text = group_text(scene, index, mesh, text, files);
+    return object.casts_shadows && !blocks_itself ? text + blocker_text(mesh, name) : text;
 }
 
 }  // namespace candela::povray_target

@@ -20,6 +20,7 @@
 #include "lights.h"
 #include "meshes.h"
 #include "pigment.h"
+#include "shadows.h"
 #include "text.h"
 
 CANDELA_EMBED(candela_povray_scene, CANDELA_SOURCE_DIR "/templates/scene.pov");
@@ -49,6 +50,7 @@ std::string camera_text(const ExportedScene& scene) {
 
 std::string scene_text(const ExportedScene& scene, FileSink& files) {
     const auto color = decoded(scene.image.background, scene.image.color_management);
+    if (scene.has_shadows) approximate_shadows(scene, files);
     std::string meshes;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) meshes += mesh_text(scene, i, files);
     return target::filled(candela_povray_scene, {{"TITLE", target::ascii_identifier(scene.title)},
@@ -85,7 +87,11 @@ class PovRayTarget final : public Target {
     explicit PovRayTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.models_without_kernel = true, .triangle = true, .vertex_colors = true, .textures = true};
+        return {.models_without_kernel = true,
+                .triangle = true,
+                .vertex_colors = true,
+                .textures = true,
+                .shadows = true};
     }
     const char* main_file() const noexcept override { return "scene.pov"; }
     bool can_draw() const noexcept override { return true; }

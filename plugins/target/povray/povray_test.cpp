@@ -234,6 +234,146 @@ ks = [0.4, 0.2, 0.1]
 }
 
 TEST_CASE(
+    "target/povray: with shadows, light is blocked where it enters a solid object, and on both sides of an "
+    "open one") {
+    const Folder folder({{"floor.obj", "v -3 -1 -3\nv -3 -1 3\nv 3 -1 3\nv 3 -1 -3\nf 1 2 3 4\n"}});
+    // A coarse ball whose normals face lights that its triangles do not, a lamp within a solid one, whose
+    // light leaves it, and a sheet with a lamp on either side.
+    expect(verify(folder, k_head + R"(observer = {position = [0.3, 1.4, 4.5], look_at = [0, -0.2, 0]}
+image = {width = 240, height = 180, background = [0, 0, 90]}
+reflection = {model = "phong"}
+shadows = {enabled = true}
+[[light]]
+type = "point"
+position = [-2, 2, 1]
+intensity = 4
+[[light]]
+type = "point"
+position = [1, 0.3, -0.6]
+intensity = 1
+[[light]]
+type = "directional"
+direction = [-1, -0.5, 0.2]
+intensity = 0.3
+[[object]]
+type = "mesh"
+file = "floor.obj"
+[[object]]
+type = "sphere"
+segments = 7
+radius = 0.6
+position = [-0.9, -0.2, 0.3]
+[[object]]
+type = "cube"
+size = 0.6
+encloses = true
+position = [1, 0.3, -0.6]
+[[object]]
+type = "mesh"
+file = "floor.obj"
+scale = [0.1, 0.5, 0.2]
+rotation = [80, 20, 0]
+position = [0.3, -0.1, 0.3]
+)"),
+           0);
+}
+
+TEST_CASE("target/povray: lights and objects without shadows keep their cones and highlights") {
+    const Folder folder({{"floor.obj", "v -3 -1 -3\nv -3 -1 3\nv 3 -1 3\nv 3 -1 -3\nf 1 2 3 4\n"}});
+    expect(verify(folder, k_head + R"(observer = {position = [0.3, 1.4, 4.5], look_at = [0, -0.2, 0]}
+image = {width = 240, height = 180, background = [0, 0, 90]}
+reflection = {model = "phong"}
+shadows = {enabled = true}
+[[light]]
+type = "spot"
+position = [-1, 2.5, 1]
+direction = [0.4, -1, -0.3]
+intensity = 6
+outer_angle = 40
+inner_angle = 20
+casts_shadows = false
+[[light]]
+type = "directional"
+direction = [-1, -0.7, -0.4]
+intensity = 0.4
+[[object]]
+type = "mesh"
+file = "floor.obj"
+[[object]]
+type = "sphere"
+radius = 0.5
+position = [-0.4, 0.6, 0.3]
+casts_shadows = false
+[[object]]
+type = "sphere"
+radius = 0.5
+position = [0.7, 0.1, 0]
+[[object]]
+type = "cube"
+size = 0.8
+position = [-0.5, -0.5, -0.3]
+rotation = [0, 30, 0]
+receives_shadows = false
+)"),
+           0);
+}
+
+TEST_CASE("target/povray: what differs in POV-Ray's shadows is refused by name") {
+    const Folder folder;
+    const std::string scene = k_head + R"(observer = {position = [0, 0, 4], look_at = [0, 0, 0]}
+image = {width = 64, height = 48}
+reflection = {model = "lambert"}
+shadows = {enabled = true}
+[[light]]
+name = "sky"
+type = "ambient"
+ambient_occlusion_rays = 8
+[[light]]
+name = "tube"
+type = "distributed"
+position = [0, 2, 1]
+[[object]]
+name = "pot"
+type = "teapot"
+size = 0.5
+position = [1, 0, 0]
+[[object]]
+name = "ring"
+type = "torus"
+major_radius = 0.3
+minor_radius = 0.1
+receives_shadows = false
+)";
+    const CommandResult refused = generate(folder, scene);
+    CHECK(refused.exit_code == 1);
+    for (const char* const sentence : {"light 'sky' is not darkened by what is near",
+                                       "light 'tube' has as many steps in its penumbras as it has samples",
+                                       "object pot is open", "object ring is not convex"}) {
+        INFO(sentence);
+        CHECK(holds(refused.err, sentence));
+    }
+    expect(generate(folder, scene, {"--approximate"}), 0);
+    expect(generate(folder, scene, {"--no-shadows"}), 0);
+}
+
+TEST_CASE("target/povray: a scene of a few millimetres is too small for its shadows") {
+    const CommandResult refused =
+        generate(Folder(), k_head + R"(observer = {position = [0, 0, 0.02], look_at = [0, 0, 0]}
+image = {width = 64, height = 48}
+reflection = {model = "lambert"}
+shadows = {enabled = true}
+[[light]]
+type = "directional"
+direction = [0, -1, 0]
+[[object]]
+type = "sphere"
+radius = 0.005
+)");
+    CHECK(refused.exit_code == 1);
+    CHECK(holds(refused.err, "nearer than a millimetre"));
+}
+
+TEST_CASE(
     "target/povray: features that POV-Ray lacks are refused by name, or reported once each with "
     "--approximate") {
     const std::string scene = k_head + R"(observer = {position = [0, 0, 4], look_at = [0, 0, 0]}

@@ -24,6 +24,11 @@ Vec3 turned(Vec3 n) {
     return normalized(other);
 }
 
+std::array<Vec3, 3> corners_of(const ExportedMesh& mesh, std::size_t first) {
+    return {mesh.position[mesh.indices[first]], mesh.position[mesh.indices[first + 1]],
+            mesh.position[mesh.indices[first + 2]]};
+}
+
 Vec3 face_normal(const Triangles& t, std::size_t first) {
     const Vec3 a = t.positions[t.indices[first]];
     return normalized(cross(t.positions[t.indices[first + 1]] - a, t.positions[t.indices[first + 2]] - a));
@@ -92,6 +97,44 @@ Triangles split_off_outline(Triangles& t, const ExportedObserver& observer) {
     }
     t.indices = std::move(others);
     return outline;
+}
+
+Triangles shell_of(const ExportedMesh& mesh) {
+    constexpr float k_height = 3e-4f, k_relative = 1e-5f;  // metres, and relative to coordinates
+    // Light that all but grazes a surface crosses the shell far from where it arrives.
+    constexpr float k_overlap = 50;
+    Triangles shell;
+    for (std::size_t first = 0; first < mesh.indices.size(); first += 3) {
+        const std::array<Vec3, 3> corners = corners_of(mesh, first);
+        const Vec3 middle = 1.0f / 3 * (corners[0] + corners[1] + corners[2]);
+        const Vec3 normal = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
+        for (const float side : {1.0f, -1.0f}) {
+            if (side < 0 && mesh.is_solid) continue;
+            for (const Vec3& corner : corners) {
+                const float height = std::max(k_height, k_relative * largest(corner));
+                shell.indices.push_back(static_cast<std::uint32_t>(shell.positions.size()));
+                shell.positions.push_back(corner +
+                                          height * (side * normal + k_overlap * normalized(corner - middle)));
+            }
+        }
+    }
+    return shell;
+}
+
+bool is_convex(const ExportedMesh& mesh) {
+    constexpr std::size_t k_most = 20'000'000;  // comparisons
+    constexpr float k_flat = 1e-5f;             // relative to coordinates
+    if (mesh.triangle_count() * mesh.vertex_count > k_most) return false;
+    for (std::size_t first = 0; first < mesh.indices.size(); first += 3) {
+        const std::array<Vec3, 3> corners = corners_of(mesh, first);
+        const Vec3 normal = normalized(cross(corners[1] - corners[0], corners[2] - corners[0]));
+        for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
+            const float height = dot(normal, mesh.position[v] - corners[0]);
+            const float limit = k_flat * std::max(largest(mesh.position[v]), largest(corners[0]));
+            if (height > limit || (!mesh.is_solid && height < -limit)) return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace candela::povray_target

@@ -31,4 +31,12 @@ void keep_equal_normals(Triangles& triangles);
 /// side.
 Triangles split_off_outline(Triangles& triangles, const ExportedObserver& observer);
 
+/// The triangles, enlarged and a little above the surface, on both sides of one that is not solid: light that
+/// is projected through them is not blocked on its way there.
+Triangles shell_of(const ExportedMesh& mesh);
+
+/// Whether no part of the object is between another part and a light that its triangle faces: it is solid and
+/// convex, or flat. Large meshes are not looked at, and count as not convex.
+bool is_convex(const ExportedMesh& mesh);
+
 }  // namespace candela::povray_target
