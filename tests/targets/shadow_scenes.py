@@ -34,9 +34,27 @@ LIGHTS = (
     'name = "inside"\ntype = "point"\nposition = [-1.6, 1.8, -0.5]\nintensity = 0.3\n',  # within the shade
 )
 
+# Data say where a light is; one that is not data says how far away it is.
+LAMP = """/// # Lamp
+/// A light that fades faster than others.
+struct LampLight {
+    vec3 position;    /// point in m: where it is
+    float intensity;  /// = 1 [0, inf): at one metre
+};
+
+KERNEL float lamp_distance(LampLight light, Receiver r) {
+    return length(light.position - r.position);
+}
+
+KERNEL Incident lamp_illuminate(LampLight light, Receiver r) {
+    float fading = 1.0f / max(lamp_distance(light, r), 0.01f);
+    return point_source(light.position, vec3(fading), light.intensity, 0, 0.0f, r);
+}
+"""
+
 
 def files():
-    return {"floor.obj": FLOOR.encode(), "wall.obj": WALL.encode(), "screen.obj": SCREEN.encode()}
+    return {"lamp.kernel": LAMP.encode(), "floor.obj": FLOOR.encode(), "wall.obj": WALL.encode(), "screen.obj": SCREEN.encode()}
 
 
 def objects_text(reflections, shadings, number, is_exact, chance):
@@ -75,5 +93,7 @@ def scene_text(reflections, number, is_exact):
             text += "ambient_occlusion_rays = 12\nambient_occlusion_distance = 1.5\n"
         if kind == 1 and number == 2 and not is_exact:
             text += "casts_shadows = false\n"
+    if not is_exact:
+        text += '[[light]]\ntype = "lamp.kernel"\nposition = [0.6, 0.4, 0.3]\nintensity = 0.3\n'
     shadings = ["phong"] if is_exact else ["phong", "gouraud", "flat"]
     return text + objects_text(reflections, shadings, number, is_exact, chance)
