@@ -62,4 +62,8 @@ std::string number_array(const char* type, const char* name, std::span<const std
     return array_text(type, name, numbers);
 }
 
+std::string number_array(const char* type, const char* name, std::span<const std::int32_t> numbers) {
+    return array_text(type, name, numbers);
+}
+
 }  // namespace candela::target

@@ -21,6 +21,7 @@ CANDELA_EMBED(candela_target_triangle_fragment, CANDELA_TARGET_TEMPLATES "/trian
 CANDELA_EMBED(candela_target_texture, CANDELA_TARGET_TEMPLATES "/texture.glsl");
 CANDELA_EMBED(candela_target_texture_vertex, CANDELA_TARGET_TEMPLATES "/texture_vertex.glsl");
 CANDELA_EMBED(candela_target_texture_fragment, CANDELA_TARGET_TEMPLATES "/texture_fragment.glsl");
+CANDELA_EMBED(candela_target_shadow_fragment, CANDELA_TARGET_TEMPLATES "/shadow_fragment.glsl");
 CANDELA_EMBED(candela_target_screen, CANDELA_TARGET_TEMPLATES "/screen.glsl");
 CANDELA_EMBED(candela_target_accumulate, CANDELA_TARGET_TEMPLATES "/accumulate.glsl");
 CANDELA_EMBED(candela_target_encode, CANDELA_TARGET_TEMPLATES "/encode.glsl");
@@ -72,12 +73,21 @@ std::string needs_text(const ExportedReflection& model) {
            (model.needs.uv ? "#define NEEDS_UV\n" : "");
 }
 
-std::string reflection_text(const ExportedReflection& model) {
+/// Some models wrap light around a surface, so that it also counts where N.L <= 0.
+std::string horizon_text(const ExportedReflection& model) {
+    const bool is_below = std::ranges::any_of(model.plugin->properties, [](const Property& property) {
+        return std::string_view(property.name) == "lights-below-horizon";
+    });
+    return fmt::format("bool lights_below_horizon() {{ return {}; }}\n", is_below);
+}
+
+std::string reflection_text(const ExportedReflection& model, bool has_shadows) {
     return fmt::format(
-        "{}\n{}{}{}Reflected reflect_light(Surface s, vec3 to_light) {{ return {}; }}\n"
+        "{}\n{}{}{}{}Reflected reflect_light(Surface s, vec3 to_light) {{ return {}; }}\n"
         "vec3 reflect_ambient(Surface s) {{ return {}; }}\n",
         model.plugin->kernel.text, uniform_of(model, "material"),
         preparation_of(model, "material", "MATERIAL"), needs_text(model),
+        has_shadows ? horizon_text(model) : "",
         call(model, "reflect", constants_name(model, "material"), "s, to_light"),
         call(model, "reflect_ambient", constants_name(model, "material"), "s"));
 }
@@ -137,25 +147,37 @@ const GlslDepth k_reversed_depth{
 GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     require_different_names(scene);
     GlslParts parts;
-    const std::string lit = filled(candela_target_lit, {{"PREPARATION", calls_of_preparations(scene)}});
+    const auto if_shadows = [&](const char* text) { return scene.has_shadows ? text : ""; };
+    const std::string lit =
+        filled(candela_target_lit,
+               {{"PREPARATION", calls_of_preparations(scene)},
+                {"SEEN_SIDE",
+                 if_shadows("    seen_side = facing * point.face_normal;\n    seen_facing = facing;\n")}});
     parts.lights = lights_text(scene);
-    for (const auto& model : scene.reflections) parts.reflections.push_back(reflection_text(model));
+    for (const auto& model : scene.reflections)
+        parts.reflections.push_back(reflection_text(model, scene.has_shadows));
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
     const bool needs_triangle = sees_triangles(scene), is_textured = !scene.textures.empty();
     constexpr const char *k_triangle = "NEEDS_TRIANGLE", *k_texture = "TEXTURED";
     parts.vertex =
-        lit + stage_text(candela_target_vertex, {{needs_triangle, candela_target_triangle_vertex,
-                                                  "PASS_TRIANGLE", k_triangle, "pass_triangle();"},
-                                                 {is_textured, candela_target_texture_vertex, "PASS_TEXTURE",
-                                                  k_texture, "pass_texture();"},
-                                                 {is_textured, "", "TEXTURE_COLOR", k_texture,
-                                                  "color *= color_texture_at(color_texture, uv, 0.0);"}});
+        lit + stage_text(
+                  candela_target_vertex,
+                  {{needs_triangle, candela_target_triangle_vertex, "PASS_TRIANGLE", k_triangle,
+                    "pass_triangle();"},
+                   {is_textured, candela_target_texture_vertex, "PASS_TEXTURE", k_texture, "pass_texture();"},
+                   {is_textured, "", "TEXTURE_COLOR", k_texture,
+                    "color *= color_texture_at(color_texture, uv, 0.0);"}},
+                  {{"CORNER", if_shadows("flat out vec3 at_corner;\n")},
+                   {"PASS_CORNER", if_shadows("    at_corner = position;\n")}});
     parts.fragment = lit + stage_text(candela_target_fragment,
                                       {{needs_triangle, candela_target_triangle_fragment, "READ_TRIANGLE",
                                         k_triangle, "read_triangle();"},
                                        {is_textured, candela_target_texture_fragment, "TEXTURE_COLOR",
                                         k_texture, "color *= texture_seen(at_place, at_uv);"}},
-                                      {{"DEPTH_UNIFORM", depth.uniform}, {"DEPTH", depth.statement}});
+                                      {{"DEPTH_UNIFORM", depth.uniform},
+                                       {"DEPTH", depth.statement},
+                                       {"SHADOW_PLACE", if_shadows(candela_target_shadow_fragment)},
+                                       {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
     if (is_textured) parts.texture = candela_target_texture + std::string(texture_kernel()) + "\n";
     parts.screen = candela_target_screen;
     parts.accumulate = candela_target_accumulate;

@@ -4,11 +4,23 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <stdexcept>
+#include <string_view>
 #include <vector>
 
+#include "candela/embed.h"
+#include "candela/kernel_language/lexer.h"
 #include "candela/target/glsl.h"
 #include "candela/target/kernels.h"
+#include "candela/target/shadow_tree.h"
+#include "candela/target/text_template.h"
+
+CANDELA_EMBED(candela_target_shadows, CANDELA_TARGET_TEMPLATES "/shadows.glsl");
+CANDELA_EMBED(candela_target_sample_offsets, CANDELA_TARGET_TEMPLATES "/sample_offsets.glsl");
+CANDELA_EMBED(candela_target_extended_light, CANDELA_TARGET_TEMPLATES "/extended_light.glsl");
+CANDELA_EMBED(candela_target_ambient_occlusion, CANDELA_TARGET_TEMPLATES "/ambient_occlusion.glsl");
 
 namespace candela::target {
 
@@ -60,42 +72,156 @@ struct LightLoop {
     std::string statements;
 };
 
-LightLoop loop_over(const ExportedModel& model, const LightBlock& block) {
-    const PluginDescriptor& plugin = *model.plugin;
-    LightLoop loop;
-    loop.declarations = fmt::format("uniform int {};\n", block.count);
-    std::string body;
-    if (has_parameters(model)) {
+/// Whether a light's kernel has that function, which describes the light as data. Descriptors list only
+/// those that compute its light.
+bool describes(const ExportedModel& model, std::string_view name) {
+    const auto tokens = kernel_language::code_of(model.plugin->kernel.text);
+    const std::string function = fmt::format("{}_{}", model.plugin->kernel.prefix, name);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        if (tokens[i].text == "KERNEL" && kernel_language::text_at(tokens, i + 2) == function) return true;
+    }
+    return false;
+}
+
+/// The text that adds up a light model's lights.
+class LightLoopWriter {
+  public:
+    LightLoopWriter(const ExportedScene& scene, std::size_t model, const LightBlock& block)
+        : scene_(scene),
+          index_(model),
+          model_(scene.light_models[model]),
+          block_(block),
+          has_samples_(has_function(model_, "sample_count")) {}
+
+    LightLoop write() {
+        LightLoop loop;
+        loop.declarations = fmt::format("uniform int {};\n", block_.count);
+        if (has_parameters(model_)) read_parameters(loop);
+        if (scene_.has_shadows)
+            body_ += fmt::format(
+                "        vec3 shadows = table_vec3({} + {} * i);  // whether objects block the light; rays "
+                "and "
+                "distance of its ambient occlusion\n",
+                block_.first + block_.size - 1, block_.size);
+        if (has_function(model_, "illuminate")) add_samples();
+        if (has_function(model_, "illuminate_ambient")) add_ambient();
+        loop.statements = fmt::format("    for (int i = 0; i < {}; ++i) {{\n{}    }}\n", block_.count, body_);
+        return loop;
+    }
+
+    /// Whether samples vary from pixel to pixel within its lights' extents.
+    bool varies() const { return scene_.has_shadows && scene_.shadows_vary && describes(model_, "extent"); }
+
+  private:
+    void read_parameters(LightLoop& loop) {
+        const PluginDescriptor& plugin = *model_.plugin;
         std::vector<std::string> members;
         std::size_t offset = 0;
         for (const std::size_t i : plugin.kernel.members) {
             members.push_back(read_member(plugin.parameters[i].type, offset));
             offset += texels_of(plugin.parameters[i].type);
         }
-        const std::string type = plugin.kernel.parameters, read = "read_" + light_name(model);
-        loop.declarations += fmt::format(
-            "{0} {1}(int i) {{\n    int at = {2}{3} * i;\n    return {0}({4});\n}}\n", type, read,
-            block.first == 0 ? "" : fmt::format("{} + ", block.first), block.size, fmt::join(members, ", "));
-        body = fmt::format("        {} light = {};\n", constants_type(model), prepared(model, read + "(i)"));
+        const std::string type = plugin.kernel.parameters, read = "read_" + light_name(model_);
+        loop.declarations +=
+            fmt::format("{0} {1}(int i) {{\n    int at = {2}{3} * i;\n    return {0}({4});\n}}\n", type, read,
+                        block_.first == 0 ? "" : fmt::format("{} + ", block_.first), block_.size,
+                        fmt::join(members, ", "));
+        body_ =
+            fmt::format("        {} light = {};\n", constants_type(model_), prepared(model_, read + "(i)"));
     }
-    constexpr const char* k_sum =
-        "{0}Reflected reflected = reflect_light(s, incident.to_light);\n"
-        "{0}sum += reflected.diffuse * incident.diffuse + reflected.specular * incident.specular;\n";
-    if (has_function(model, "sample_count")) {
-        body += fmt::format(
-            "        int samples = {};\n        for (int k = 0; k < samples; ++k) {{\n"
-            "            Incident incident = {};\n",
-            call(model, "sample_count", "light", ""), call(model, "illuminate", "light", "r, k"));
-        body += fmt::format(fmt::runtime(k_sum), "            ") + "        }\n";
-    } else if (has_function(model, "illuminate")) {
-        body += fmt::format("        Incident incident = {};\n", call(model, "illuminate", "light", "r"));
-        body += fmt::format(fmt::runtime(k_sum), "        ");
+
+    void add_samples() {
+        if (scene_.has_shadows) body_ += "        bool is_blocked = is_shadowed && shadows.x > 0.0;\n";
+        if (!has_samples_) {
+            add_sample("        ");
+            return;
+        }
+        body_ += fmt::format("        int samples = {};\n        for (int k = 0; k < samples; ++k) {{\n",
+                             call(model_, "sample_count", "light", ""));
+        add_sample("            ");
+        body_ += "        }\n";
     }
-    if (has_function(model, "illuminate_ambient"))
-        body += fmt::format("        sum += reflect_ambient(s) * {};\n",
-                            call(model, "illuminate_ambient", "light", "r"));
-    loop.statements = fmt::format("    for (int i = 0; i < {}; ++i) {{\n{}    }}\n", block.count, body);
-    return loop;
+
+    void add_sample(const char* indent) {
+        const std::string kernel = call(model_, "illuminate", "light", has_samples_ ? "r, k" : "r");
+        const auto line = [&](const std::string& text) { body_ += indent + text + "\n"; };
+        const char* const k = has_samples_ ? "k" : "0";
+        line(fmt::format("Incident incident = {};", kernel));
+        if (varies()) {
+            line(fmt::format("Punctual source = {};", description("punctual")));
+            line("if (is_blocked) {");
+            line(fmt::format("    source = moved(source, {}, {});", description("extent"), k));
+            line("    incident = punctual_light(source, r);");
+            line("}");
+        }
+        constexpr const char* k_reflected =
+            "reflected.diffuse * incident.diffuse + reflected.specular * incident.specular";
+        if (scene_.has_shadows)
+            line(fmt::format("float reached = is_blocked ? visibility(r, incident, {}) : 1.0;", distance()));
+        line("Reflected reflected = reflect_light(s, incident.to_light);");
+        line(fmt::format(fmt::runtime(scene_.has_shadows ? "sum += reached * ({});" : "sum += {};"),
+                         k_reflected));
+    }
+
+    void add_ambient() {
+        const bool has_occlusion = std::ranges::any_of(scene_.lights, [&](const ExportedLight& light) {
+            return light.model == index_ && light.ambient_occlusion_rays > 0;
+        });
+        const bool is_occluded = scene_.has_shadows && has_occlusion;
+        if (is_occluded)
+            body_ +=
+                "        float free = is_shadowed && shadows.y > 0.0 ? ambient_visibility(r, "
+                "int(shadows.y), shadows.z) : 1.0;\n";
+        body_ += fmt::format("        sum += {}reflect_ambient(s) * {};\n", is_occluded ? "free * " : "",
+                             call(model_, "illuminate_ambient", "light", "r"));
+    }
+
+    /// A call of a function for which describes() is true.
+    std::string description(const char* name) const {
+        return fmt::format("{}_{}(light{})", model_.plugin->kernel.prefix, name, has_samples_ ? ", k" : "");
+    }
+
+    std::string distance() const {
+        if (varies()) return "length(source.position - r.position)";
+        if (describes(model_, "punctual"))
+            return fmt::format("length({}.position - r.position)", description("punctual"));
+        if (has_function(model_, "distance"))
+            return call(model_, "distance", "light", has_samples_ ? "r, k" : "r");
+        const bool has_place = std::ranges::any_of(scene_.lights, [&](const ExportedLight& light) {
+            return light.model == index_ &&
+                   std::ranges::any_of(light.punctual, [](const PunctualLight& p) { return p.w != 0; });
+        });
+        if (has_place)
+            throw std::runtime_error(fmt::format(
+                "the kernel of {0} does not say how far away the light is, which shadows need; expected a "
+                "function {1}_punctual() or {1}_distance()",
+                model_.id, model_.plugin->kernel.prefix));
+        return "k_infinitely_far";
+    }
+
+    const ExportedScene& scene_;
+    std::size_t index_;
+    const ExportedModel& model_;
+    const LightBlock& block_;
+    bool has_samples_;
+    std::string body_;
+};
+
+/// The functions that the loops call, except those of kernels.
+std::string shadows_text(const ExportedScene& scene, bool varies) {
+    if (!scene.has_shadows) return "";
+    const bool has_occlusion = std::ranges::any_of(
+        scene.lights, [](const ExportedLight& light) { return light.ambient_occlusion_rays > 0; });
+    std::string text =
+        filled(candela_target_shadows,
+               {{"LAST_COLUMN", fmt::format("{}", k_shadow_tree_width - 1)},
+                {"ROW_BITS", fmt::format("{}", std::countr_zero(unsigned{k_shadow_tree_width}))}});
+    if (varies || (has_occlusion && scene.shadows_vary)) text += candela_target_sample_offsets;
+    if (varies) text += candela_target_extended_light;
+    if (has_occlusion)
+        text += filled(candela_target_ambient_occlusion,
+                       {{"OFFSETS", scene.shadows_vary ? "sample_offsets(0)" : "vec2(0.0)"}});
+    return text;
 }
 
 }  // namespace
@@ -103,14 +229,17 @@ LightLoop loop_over(const ExportedModel& model, const LightBlock& block) {
 std::string lights_text(const ExportedScene& scene) {
     std::string text, declarations, statements;
     const std::vector<LightBlock> blocks = light_blocks(scene);
+    bool varies = false;
     if (!blocks.empty()) declarations = fmt::format(fmt::runtime(k_light_table), k_light_table_width);
     for (std::size_t m = 0; m < blocks.size(); ++m) {
-        const LightLoop loop = loop_over(scene.light_models[m], blocks[m]);
+        LightLoopWriter writer(scene, m, blocks[m]);
+        const LightLoop loop = writer.write();
         text += std::string(scene.light_models[m].plugin->kernel.text) + "\n";
         declarations += loop.declarations;
         statements += loop.statements;
+        varies = varies || writer.varies();
     }
-    return text + declarations +
+    return text + declarations + shadows_text(scene, varies) +
            "\nReflected reflect_light(Surface s, vec3 to_light);\nvec3 reflect_ambient(Surface s);\n\n"
            "// The sum of the ambient, diffuse and specular light at a point.\n"
            "vec3 lights_at(Surface s, Receiver r) {\n    vec3 sum = vec3(0.0);\n" +
@@ -129,11 +258,17 @@ std::vector<LightBlock> light_blocks(const ExportedScene& scene) {
             for (const std::size_t i : model.plugin->kernel.members)
                 size += texels_of(model.plugin->parameters[i].type);
         }
+        if (scene.has_shadows) ++size;
         blocks.push_back(
             {.count = light_name(model) + "_count", .lights = lights, .first = first, .size = size});
         first += size * lights;
     }
     return blocks;
+}
+
+Vec3 shadow_texel(const ExportedLight& light) {
+    return {light.casts_shadows ? 1.0f : 0.0f, static_cast<float>(light.ambient_occlusion_rays),
+            light.ambient_occlusion_distance};
 }
 
 std::size_t texels_of(ParamType type) { return type == ParamType::matrix ? 3 : 1; }

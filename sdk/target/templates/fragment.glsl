@@ -14,6 +14,7 @@ INTENSITY_RATE in vec3 back;
 #endif
 
 @DEPTH_UNIFORM@
+@SHADOW_PLACE@
 
 layout(location = 0) out vec4 intensity;
 
@@ -29,7 +30,7 @@ void main() {
 #endif
     vec3 color = at_vertex_color;
 @TEXTURE_COLOR@
-    intensity = vec4(intensity_at(at_place, point, color, facing), 1.0);
+    intensity = vec4(intensity_at(@PLACE@, point, color, facing), 1.0);
 #else
     intensity = vec4(gl_FrontFacing ? front : back, 1.0);
 #endif

@@ -23,5 +23,6 @@ vec3 intensity_at(vec3 place, ShadingPoint point, vec3 color, float facing) {
 #ifdef NEEDS_UV
     s.uv = point.uv;
 #endif
+@SEEN_SIDE@
     return lights_at(s, Receiver(place, s.normal));
 }

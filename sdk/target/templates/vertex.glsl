@@ -20,6 +20,7 @@ out vec3 at_dpdu;
 out vec3 at_dpdv;
 out vec3 at_barycentric;
 out vec3 at_vertex_color;
+@CORNER@
 #else
 INTENSITY_RATE out vec3 front;
 INTENSITY_RATE out vec3 back;
@@ -37,6 +38,7 @@ void main() {
     at_dpdv = dpdv;
     at_barycentric = barycentric;
     at_vertex_color = vertex_color;
+@PASS_CORNER@
 @PASS_TEXTURE@
 #else
     vec3 color = vertex_color;

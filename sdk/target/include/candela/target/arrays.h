@@ -19,5 +19,6 @@ std::vector<float> interleaved(ConstVec2Span arrays, std::size_t count);
 /// "    static const float name[] = {1.5f, ...};", in readable lines.
 std::string number_array(const char* type, const char* name, std::span<const float> numbers);
 std::string number_array(const char* type, const char* name, std::span<const std::uint32_t> numbers);
+std::string number_array(const char* type, const char* name, std::span<const std::int32_t> numbers);
 
 }  // namespace candela::target

@@ -40,10 +40,13 @@ std::string whole_glsl_prelude();
 
 /// Texels in a row of the texture `light_table`, from which shaders read lights. A texel has four 32-bit
 /// integers (RGBA32I) and holds one member of a light's struct: the bits of a vector's three floats or of one
-/// float, an integer, or the offset and size of a Table. A matrix takes three texels, its columns.
+/// float, an integer, or the offset and size of a Table. A matrix takes three texels, its columns. In a scene
+/// with shadows, a light has one more texel after its struct's members, shadow_texel().
 constexpr int k_light_table_width = 1024;
 /// The number of texels of a member of that type.
 std::size_t texels_of(ParamType type);
+/// A vector: 1 if objects block the light, otherwise 0; the rays of its ambient occlusion, and their length.
+Vec3 shadow_texel(const ExportedLight& light);
 
 /// Numbers in a row of the texture `table_numbers` (R32F), which holds ExportedScene::tables.
 constexpr int k_table_width = 1024;
@@ -68,6 +71,11 @@ struct LightBlock {
 /// coordinates change from its first vertex to the second and to the third (u, v, u, v); and how the line of
 /// sight moves from pixel to pixel, `pixel_right` and `pixel_up`: vectors in metres, at a distance of 1 in
 /// perspective.
+///
+/// In a scene with shadows they read `shadow_tree` and `least_margin`, see ShadowTree; the `object_index`;
+/// `is_shadowed`, whether light is blocked on the object; the `picture_height` in pixels; `pixel_right` and
+/// `pixel_up` as above; and `line_of_sight`, the line at the picture's lower left corner, to which
+/// gl_FragCoord adds pixels: in perspective a direction, otherwise the distance from the eye.
 bool sees_triangles(const ExportedScene& scene);
 
 /// The blocks of the scene's light models.

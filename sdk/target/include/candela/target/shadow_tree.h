@@ -1,0 +1,40 @@
+// The hierarchy of boxes with which programs find out whether light is blocked.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "candela/target.h"
+
+namespace candela::target {
+
+/// A bounding-volume hierarchy around the triangles that block light, without what a program has anyway:
+/// from its meshes it takes the triangles' vertices, and from those the boxes. It is built here and not by
+/// the programs, so that all of them have the same, start at once, and contain no code that builds it.
+///
+/// Shaders read it from `shadow_tree`, a texture (RGBA32I) with k_shadow_tree_width texels in a row;
+/// positions are in it as bits of floats. First come the nodes, two texels each: the low corner of the box
+/// and `nodes[2 i]`, the high corner and `nodes[2 i + 1]`. Then the triangles, three texels each: their
+/// vertices, the first of them with twice the object's number, plus 1 if the object is solid (ExportedMesh).
+struct ShadowTree {
+    /// Two numbers per node. The first: the node at which a ray goes on that misses the box, or that has met
+    /// the node's triangles; -1 if there is none. The second: of a node with children -1; its first child
+    /// follows it, and the other one is where the first one's first number leads. Of a leaf, eight times the
+    /// first texel of its triangles, plus their number.
+    std::vector<std::int32_t> nodes;
+    /// For each of the objects' triangles, one object after the other, its number among those of the tree; -1
+    /// if it blocks no light.
+    std::vector<std::int32_t> places;
+    /// How far from a surface rays must start, at least: candela::OcclusionTree::least_margin().
+    float least_margin = 0;
+
+    std::size_t triangle_count = 0;  // in the tree
+};
+
+constexpr int k_shadow_tree_width = 2048;
+
+/// The tree of the scene's objects that cast shadows.
+ShadowTree shadow_tree(const ExportedScene& scene);
+
+}  // namespace candela::target

@@ -1,0 +1,23 @@
+
+#ifdef LIT_AT_FRAGMENT
+uniform int picture_height;
+uniform vec3 line_of_sight;  // at (0, 0) of gl_FragCoord; if orthographic, its distance from the eye
+#ifndef TEXTURED
+uniform vec3 pixel_right;
+uniform vec3 pixel_up;
+#endif
+flat in vec3 at_corner;
+// The place where the line of sight meets the triangle's plane. Interpolation may miss the plane by more than rays keep away from
+// surfaces, and edges of shadows show where it misses the line.
+vec3 place_on_triangle() {
+    seen_pixel = uvec2(int(gl_FragCoord.x), picture_height - 1 - int(gl_FragCoord.y));
+    vec3 line = line_of_sight + gl_FragCoord.x * pixel_right + gl_FragCoord.y * pixel_up;
+    vec3 from = is_orthographic ? eye + line : eye;
+    vec3 along = is_orthographic ? -towards_observer : line;
+    vec3 place = from + along * (dot(at_face_normal, at_corner - from) / dot(at_face_normal, along));
+    // Triangles seen from the side also cover pixels whose line of sight misses them widely.
+    float pixel = length(pixel_right) * (is_orthographic ? 1.0 : dot(towards_observer, eye - at_place));
+    if (!(distance(place, at_place) < 4.0 * pixel)) place = at_place;
+    return place - at_face_normal * dot(at_face_normal, place - at_corner);
+}
+#endif

@@ -1,0 +1,96 @@
+
+// Shadows: a ray from the point to each light, through a tree of boxes around the triangles that block light. `shadow_tree`
+// holds it, positions as bits of floats. A node is two texels, the low and the high corner of its box. The fourth number of
+// the first: the node at which a ray goes on that misses the box, or that has met the node's triangles; -1: none. Of the
+// second: -1 if the node has children, the first of which follows it; otherwise 8 times the first texel of its triangles plus
+// their number. A triangle is three texels, its vertices. The fourth number of the first: twice its object's number, plus 1 if
+// the object is solid, that is closed with nothing inside.
+uniform highp isampler2D shadow_tree;
+uniform float least_margin;
+uniform int object_index;
+uniform bool is_shadowed;  // whether light is blocked on this object
+
+// Where light is evaluated.
+uvec2 seen_pixel = uvec2(0u);  // from the top left of the picture; (0, 0) at vertices and faces
+vec3 seen_side;                // the triangle's normal on the visible side; at a vertex the vertex's
+float seen_facing;             // -1 where an open surface is seen from behind
+
+const float k_infinitely_far = 3.0e38;
+
+ivec4 tree_texel(int at) { return texelFetch(shadow_tree, ivec2(at & @LAST_COLUMN@, at >> @ROW_BITS@), 0); }
+vec3 tree_position(int at) { return intBitsToFloat(tree_texel(at).xyz); }
+
+// A solid object blocks light where the ray enters it; other surfaces block it on both sides. A ray that starts below the
+// surface may leave its own object: there the shading normal faces the light and the triangle does not, as at the edge of the
+// lit side of a coarse mesh.
+bool is_let_through(int owner, float cosine, bool is_below) {
+    bool is_solid = (owner & 1) != 0;
+    bool is_own = (owner >> 1) == object_index;
+    return is_solid ? cosine >= 0.0 : is_own && is_below && cosine * seen_facing >= 0.0;
+}
+
+// By the signs of the volumes between the ray and the triangle's edges. Two triangles compute the same volume for the edge that
+// they share, so that no ray slips through between them.
+bool blocks(int triangle, vec3 from, vec3 direction, float reach, bool is_below) {
+    ivec4 first = tree_texel(triangle);
+    vec3 a = intBitsToFloat(first.xyz) - from;
+    vec3 b = tree_position(triangle + 1) - from;
+    vec3 c = tree_position(triangle + 2) - from;
+    vec3 to_c = c - a;
+    vec3 to_a = a - b;
+    vec3 to_b = b - c;
+    float u = dot(cross(to_c, c + a), direction);
+    float v = dot(cross(to_a, a + b), direction);
+    float w = dot(cross(to_b, b + c), direction);
+    float rounding = 1.1920929e-7 * abs(u + v + w);
+    if (min(min(u, v), w) < -rounding && max(max(u, v), w) > rounding) return false;
+    vec3 normal = cross(to_c, to_a);
+    float cosine = dot(normal, direction);  // times lengths
+    if (cosine == 0.0 || is_let_through(first.w, cosine, is_below)) return false;
+    float along = dot(normal, a) / cosine;
+    return along >= 0.0 && along <= reach;
+}
+
+bool is_free(vec3 from, vec3 direction, float reach, bool is_below) {
+    vec3 inverse = 1.0 / mix(direction, vec3(1.0e-18), lessThan(abs(direction), vec3(1.0e-18)));
+    for (int node = 0; node >= 0;) {
+        ivec4 low = tree_texel(2 * node);
+        ivec4 high = tree_texel(2 * node + 1);
+        vec3 to_low = (intBitsToFloat(low.xyz) - from) * inverse;
+        vec3 to_high = (intBitsToFloat(high.xyz) - from) * inverse;
+        vec3 nearest = min(to_low, to_high);
+        vec3 farthest = max(to_low, to_high);
+        float enters = max(max(nearest.x, nearest.y), max(nearest.z, 0.0));
+        float leaves = min(min(farthest.x, farthest.y), min(farthest.z, reach));
+        bool meets = enters <= 1.000001 * leaves;  // or misses it by rounding
+        if (meets && high.w < 0) {
+            ++node;
+            continue;
+        }
+        int triangle = high.w >> 3;
+        int end = meets ? triangle + 3 * (high.w & 7) : triangle;
+        for (; triangle < end; triangle += 3) {
+            if (blocks(triangle, from, direction, reach, is_below)) return false;
+        }
+        node = low.w;
+    }
+    return true;
+}
+
+bool lights_below_horizon();
+
+// The part of the light from a direction that reaches a point: 1, or 0 if an object blocks it.
+float visibility(Receiver r, vec3 to_light, float distance) {
+    if (!lights_below_horizon() && dot(r.normal, to_light) <= 0.0) return 1.0;
+    vec3 p = abs(r.position);
+    float margin = max(least_margin, 9.5367432e-7 * max(max(p.x, p.y), p.z));
+    float reach = 0.999999 * distance - 2.0 * margin;
+    if (reach <= 0.0) return 1.0;
+    bool is_below = dot(seen_side, to_light) < 0.0;
+    return is_free(r.position + (is_below ? -margin : margin) * seen_side, to_light, reach, is_below) ? 1.0 : 0.0;
+}
+
+float visibility(Receiver r, Incident incident, float distance) {
+    bool is_lit = dot(incident.diffuse + incident.specular, vec3(1.0)) > 0.0;
+    return is_lit ? visibility(r, incident.to_light, distance) : 1.0;
+}
