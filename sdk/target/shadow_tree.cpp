@@ -74,7 +74,7 @@ class Builder {
         nodes_.insert(nodes_.end(), {0, -1});
         if (part.size() <= k_leaf_size) {
             const auto first = static_cast<std::size_t>(part.data() - triangles_.data());
-            nodes_[node + 1] = static_cast<std::int32_t>(8 * 3 * first + part.size());
+            nodes_[node + 1] = static_cast<std::int32_t>(24 * first + part.size());
         } else {
             const std::size_t left = divide(part);
             std::array<std::span<Triangle>, 2> children{part.first(left), part.subspan(left)};
@@ -100,10 +100,9 @@ class Builder {
             const Split split = best_split(part, centers, axis);
             if (split.cost < best.cost) best = split;
         }
-        const auto right = std::partition(part.begin(), part.end(), [&](const Triangle& triangle) {
-            return bin_of(triangle, centers, best.axis) < best.bin;
-        });
-        const auto left = static_cast<std::size_t>(right - part.begin());
+        const auto right = std::ranges::partition(
+            part, [&](const Triangle& triangle) { return bin_of(triangle, centers, best.axis) < best.bin; });
+        const std::size_t left = part.size() - right.size();
         // Triangles with the same centre cannot be told apart.
         return left == 0 || left == part.size() ? part.size() / 2 : left;
     }

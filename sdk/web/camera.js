@@ -64,6 +64,16 @@ export function viewProjection(observer, bounds, width, height, offset) {
 /** The distance between the lines of sight of two adjacent pixels: in metres, at a distance of 1 in perspective. */
 export const pixelSize = (observer, height) => viewHeight(observer) / height;
 
+/**
+ * The line of sight at (0, 0) of gl_FragCoord, to which its coordinates add pixels: for samples at `position` within pixels, from
+ * their top left. Orthographic: the distance of that line from the eye.
+ */
+export function lineOfSight(observer, width, height, position) {
+    const { forward, right, up } = viewAxes(observer), pixel = pixelSize(observer, height);
+    const corner = add(scale(right, pixel * (position[0] - 0.5 - width / 2)), scale(up, pixel * (0.5 - position[1] - height / 2)));
+    return observer.projection === "orthographic" ? corner : add(forward, corner);
+}
+
 /** The observer turned around the point it looks at, by angles in radians, stopping short of the poles. */
 export function orbit(observer, azimuth, elevation) {
     const pole = normalize(observer.up);

@@ -15,12 +15,13 @@ from looking import Looking
 from panes import Panes
 from picturing import Picturing
 from robustness import Robustness
+from shadows import Shadows
 from three_pages import Three
 from typesetting import Typesetting
 from viewing import Viewing
 
 __all__ = ["Access", "Accessible", "AccessibleExercise", "AccessibleThree", "AccessibleView", "Controls", "Exercising", "Formulas", "Keeping", "Lights", "Links", "Looking", "Panes", "Picturing", "Robustness",
-           "Three", "Typesetting", "Viewing"]
+           "Shadows", "Three", "Typesetting", "Viewing"]
 
 if __name__ == "__main__":
     unittest.main()

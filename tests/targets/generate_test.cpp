@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "support/command.h"
 #include "support/expect.h"
@@ -159,6 +161,48 @@ TEST_CASE("generate: --models adds models, and the C++ program switches to them"
     CHECK(third_reflection);
     const bool other_shading = image({"flat"}) != own;
     CHECK(other_shading);
+}
+
+TEST_CASE("generate: programs of scenes without shadows have no trace of them") {
+    const fs::path directory = scratch_directory();
+    const fs::path scene = write_file(directory / "scene.toml", "shadows = {enabled = true}\n" + k_coarse);
+    const auto has_traces = [&](const std::vector<std::string>& more) {
+        for (const char* const target : {"opengl", "webgl"})
+            generate(joined({scene.string(), "--target", target, "-o", (directory / target).string()}, more));
+        std::vector<bool> found;
+        for (const auto& [file, trace] : std::vector<std::pair<std::string, std::string>>{
+                 {"opengl/scene.cpp", "shadow_tree"},
+                 {"opengl/meshes.h", "ShadowTree"},
+                 {"opengl/README.md", "shadows off"},
+                 // Its script is always the same.
+                 {"webgl/scene.html", "uniform highp isampler2D shadow_tree"},
+                 {"webgl/scene.html", "\"shadows\":"}})
+            found.push_back(holds(read_file(directory / file), trace));
+        return found;
+    };
+    CHECK(has_traces({}) == std::vector<bool>(5, true));
+    CHECK(has_traces({"--no-shadows"}) == std::vector<bool>(5, false));
+}
+
+TEST_CASE("generate: an OpenGL program draws with shadows and without", "[programs]") {
+    const fs::path directory = scratch_directory();
+    const fs::path scene = write_file(directory / "scene.toml", "shadows = {enabled = true}\n" + k_coarse);
+    const auto made = [&](const std::string& name, const std::vector<std::string>& more) {
+        const std::string program = (directory / name).string();
+        generate(joined({scene.string(), "--target", "opengl", "-o", program, "--build", "--quiet"}, more));
+        return program + "/build/scene";
+    };
+    const auto drawn = [&](const std::string& program, const std::string& name,
+                           const std::vector<std::string>& options) {
+        const std::string picture = (directory / name).string();
+        succeeded(run_program(joined({program, "--headless", "--output", picture}, options)));
+        return picture;
+    };
+    const std::string with = made("with", {});
+    const std::string on = drawn(with, "on.png", {}), off = drawn(with, "off.png", {"--no-shadows"});
+    const std::string without = drawn(made("without", {"--no-shadows"}), "without.png", {});
+    succeeded(run_candela({"diff", off, without, "--tolerance", "1"}));
+    CHECK(run_candela({"diff", on, without, "--tolerance", "1"}).exit_code == 4);
 }
 
 TEST_CASE("generate: programs have help, and refuse unknown arguments") {

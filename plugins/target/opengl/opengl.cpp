@@ -19,6 +19,7 @@
 #include "candela/target/textures.h"
 #include "candela/target_plugin.h"
 #include "literals.h"
+#include "shadows.h"
 #include "textures.h"
 
 CANDELA_EMBED(candela_opengl_scene, CANDELA_SOURCE_DIR "/templates/scene.cpp");
@@ -82,13 +83,14 @@ class OpenGlWriter {
             {"PUT_TRIANGLE", if_triangles(k_put_triangle)},
             {"OBJECTS", objects},
             {"PICTURE_FILE", std::string(image_file_source())}};
-        for (const Values& more : {about, texture_values(scene_, glsl.texture)})
+        const Values shadows = shadow_values(scene_);
+        for (const Values& more : {about, texture_values(scene_, glsl.texture), shadows})
             values.insert(values.end(), more.begin(), more.end());
         write(files, "scene.cpp", filled(candela_opengl_scene, views_of(values)));
-        write(files, "meshes.h",
-              filled(candela_opengl_meshes, {{"VERSION", CANDELA_PLUGIN_VERSION}, {"ARRAYS", arrays_}}));
+        values.emplace_back("ARRAYS", arrays_);
+        write(files, "meshes.h", filled(candela_opengl_meshes, views_of(values)));
         write(files, "CMakeLists.txt", candela_opengl_cmake);
-        write(files, "README.md", filled(candela_opengl_readme, views_of(about)));
+        write(files, "README.md", filled(candela_opengl_readme, views_of(values)));
         write_textures(scene_, files);
     }
 
@@ -200,6 +202,8 @@ class OpenGlWriter {
                     for (const std::string& texel : texels(plugin.parameters[i], light.values.runtime[i]))
                         text += fmt::format("    {},\n", texel);
                 }
+                if (scene_.has_shadows)
+                    text += fmt::format("    {},\n", vector("shadows", shadow_texel(light)));
             }
         }
         return text;
@@ -230,17 +234,17 @@ class OpenGlWriter {
 
     std::string object_text(std::size_t index) {
         const ExportedObject& object = scene_.objects[index];
-        const bool is_closed = add_arrays(index);
+        const auto [is_closed, is_solid] = add_arrays(index);
         return fmt::format("    {{\"{}\", {}, {}, {},\n     {},\n     {},\n     {}, object_{}(){}}},\n",
                            ascii_identifier(object.label), braces(decoded(object.color, encoding_)),
                            object.shading, object.reflection,
                            all_uniforms(scene_.reflections, object.materials),
                            all_uniforms(scene_.shadings, object.shadings), is_closed, index,
-                           texture_members(scene_, object));
+                           texture_members(scene_, object) + shadow_members(scene_, object, is_solid));
     }
 
-    /// Returns whether the object is closed.
-    bool add_arrays(std::size_t index) {
+    /// Returns whether the object is closed, and whether it is solid.
+    std::pair<bool, bool> add_arrays(std::size_t index) {
         const ExportedMesh mesh = scene_.geometry->in_world_space(index);
         const std::size_t count = mesh.vertex_count;
         std::string body = number_array("unsigned", "corners", mesh.indices) +
@@ -270,7 +274,7 @@ class OpenGlWriter {
             "{}, {}}};\n}}\n",
             ascii_identifier(scene_.objects[index].label), index, body, fmt::join(sets, ", "),
             fmt::join(mesh.normals_of, ", "), count, mesh.triangle_count(), uv, dpdu, dpdv, color);
-        return mesh.closed;
+        return {mesh.closed, mesh.is_solid};
     }
 
     const ExportedScene& scene_;
@@ -283,7 +287,7 @@ class OpenGlTarget final : public Target {
     explicit OpenGlTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.triangle = true, .vertex_colors = true, .textures = true};
+        return {.triangle = true, .vertex_colors = true, .textures = true, .shadows = true};
     }
     void write(const ExportedScene& scene, FileSink& files) const override { OpenGlWriter(scene).run(files); }
     const char* main_file() const noexcept override { return "scene.cpp"; }

@@ -16,6 +16,7 @@
 #include "candela/target/glsl.h"
 #include "candela/target/kernels.h"
 #include "candela/target/renderers.h"
+#include "candela/target/shadow_tree.h"
 #include "lights.h"
 #include "uniforms.h"
 
@@ -61,12 +62,13 @@ class Writer {
             meshes.push_back(mesh_json(mesh, scene_.objects[i].shading));
             boxes.push_back(box_of(mesh));
             is_closed_.push_back(mesh.closed);
+            is_solid_.push_back(mesh.is_solid);
         }
         const auto lights = own_lights(scene_, boxes);
         Json objects = Json::array();
         for (std::size_t i = 0; i < scene_.objects.size(); ++i)
             objects.push_back(object_json(i, std::move(meshes[i]), lights.has_value()));
-        return {
+        Json json = {
             {"title", scene_.title},
             {"image", image_json()},
             {"observer", observer_json()},
@@ -79,6 +81,8 @@ class Writer {
             {"textures", textures_json()},
             {"lights", lights.value_or(Json::array())},
             {"objects", std::move(objects)}};
+        if (scene_.has_shadows) json["shadows"] = shadows_json();
+        return json;
     }
 
   private:
@@ -132,21 +136,27 @@ class Writer {
         const Vec3 color = intensities(object.color, scene_.image.color_management);
         Json lambert = has_own_lights ? lambert_json(object, mesh, color) : Json();
         const bool is_textured = object.color_texture != ExportedObject::k_no_texture;
-        return {{"label", object.label},
-                {"closed", is_closed_[index]},
-                {"rate", rate_name(shading.rate)},
-                {"sees_triangle", shading.needs.triangle},
-                {"reflection", object.reflection},
-                {"shading", object.shading},
-                {"lambert", std::move(lambert)},
-                {"uniforms",
-                 {{"object_color", vector_json(color)},
-                  {"material",
-                   struct_json(scene_.reflections[object.reflection], object.materials[object.reflection])},
-                  {"shading", struct_json(shading, object.shadings[object.shading])}}},
-                {"texture", is_textured ? Json(object.color_texture) : Json()},
-                {"texture_repeats", object.color_texture_repeats},
-                {"mesh", std::move(mesh)}};
+        Json json = {{"label", object.label},
+                     {"closed", is_closed_[index]},
+                     {"rate", rate_name(shading.rate)},
+                     {"sees_triangle", shading.needs.triangle},
+                     {"reflection", object.reflection},
+                     {"shading", object.shading},
+                     {"lambert", std::move(lambert)},
+                     {"uniforms",
+                      {{"object_color", vector_json(color)},
+                       {"material", struct_json(scene_.reflections[object.reflection],
+                                                object.materials[object.reflection])},
+                       {"shading", struct_json(shading, object.shadings[object.shading])}}},
+                     {"texture", is_textured ? Json(object.color_texture) : Json()},
+                     {"texture_repeats", object.color_texture_repeats},
+                     {"mesh", std::move(mesh)}};
+        if (scene_.has_shadows) {
+            json["is_solid"] = bool{is_solid_[index]};
+            json["uniforms"]["object_index"] = index;
+            json["uniforms"]["is_shadowed"] = object.receives_shadows;
+        }
+        return json;
     }
 
     Json shaders_json() const {
@@ -167,6 +177,16 @@ class Writer {
                                 {"pixels", texture.pixels}});
         }
         return textures;
+    }
+
+    /// The tree of the triangles that block light; the page takes their vertices from the meshes.
+    Json shadows_json() {
+        const ShadowTree tree = shadow_tree(scene_);
+        return {{"nodes", arrays_.put(std::as_bytes(std::span(tree.nodes)))},
+                {"places", arrays_.put(std::as_bytes(std::span(tree.places)))},
+                {"triangles", tree.triangle_count},
+                {"width", k_shadow_tree_width},
+                {"least_margin", tree.least_margin}};
     }
 
     Json image_json() const {
@@ -193,7 +213,7 @@ class Writer {
 
     const ExportedScene& scene_;
     PageArrays& arrays_;
-    std::vector<bool> is_closed_;
+    std::vector<bool> is_closed_, is_solid_;
 };
 
 }  // namespace

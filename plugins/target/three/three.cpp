@@ -46,7 +46,11 @@ class ThreeTarget final : public Target {
     explicit ThreeTarget(const sdk::NoParams&) : library_(sdk::data_folder()) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.models_without_kernel = true, .triangle = true, .vertex_colors = true, .textures = true};
+        return {.models_without_kernel = true,
+                .triangle = true,
+                .vertex_colors = true,
+                .textures = true,
+                .shadows = true};
     }
     const char* main_file() const noexcept override { return "scene.html"; }
     bool can_draw() const noexcept override { return true; }

@@ -89,6 +89,7 @@ std::vector<std::int32_t> light_table(const ExportedScene& scene) {
             if (light.model != m) continue;
             for (const std::size_t i : plugin.kernel.members)
                 texels.add(plugin.parameters[i], light.values.runtime[i]);
+            if (scene.has_shadows) texels.add(target::shadow_texel(light));
         }
     }
     return texels.numbers();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <span>
@@ -18,6 +19,7 @@
 #include "candela/target/literals.h"
 #include "candela/target/page_arrays.h"
 #include "candela/target/page_image.h"
+#include "candela/target/shadow_tree.h"
 #include "candela/target/text_template.h"
 #include "candela/target_plugin.h"
 
@@ -189,18 +191,37 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         fixed_shadings[model.plugin->name] = fixed_json(model, object.shadings[i]);
     }
     const ExportedMesh mesh = scene.geometry->in_world_space(index);
-    return {{"label", object.label},
-            {"color", vector_json(object.color)},
-            {"shading", scene.shadings[object.shading].plugin->name},
-            {"reflection", scene.reflections[object.reflection].plugin->name},
-            {"materials", std::move(materials)},
-            {"shadings", std::move(shadings)},
-            {"fixed", {{"material", std::move(fixed_materials)}, {"shading", std::move(fixed_shadings)}}},
-            {"closed", mesh.closed},
-            {"texture",
-             object.color_texture == ExportedObject::k_no_texture ? Json() : Json(object.color_texture)},
-            {"texture_repeats", object.color_texture_repeats},
-            {"mesh", mesh_json(scene, mesh, arrays)}};
+    Json json = {
+        {"label", object.label},
+        {"color", vector_json(object.color)},
+        {"shading", scene.shadings[object.shading].plugin->name},
+        {"reflection", scene.reflections[object.reflection].plugin->name},
+        {"materials", std::move(materials)},
+        {"shadings", std::move(shadings)},
+        {"fixed", {{"material", std::move(fixed_materials)}, {"shading", std::move(fixed_shadings)}}},
+        {"closed", mesh.closed},
+        {"texture",
+         object.color_texture == ExportedObject::k_no_texture ? Json() : Json(object.color_texture)},
+        {"texture_repeats", object.color_texture_repeats},
+        {"mesh", mesh_json(scene, mesh, arrays)}};
+    if (scene.has_shadows) {
+        json["receives_shadows"] = object.receives_shadows;
+        json["is_solid"] = mesh.is_solid;
+    }
+    return json;
+}
+
+/// The tree of the triangles that block light; the page takes their vertices from the meshes.
+Json shadows_json(const ExportedScene& scene, PageArrays& arrays) {
+    const ShadowTree tree = shadow_tree(scene);
+    const auto put = [&](const std::vector<std::int32_t>& numbers) {
+        return arrays.put(std::as_bytes(std::span(numbers)));
+    };
+    return {{"nodes", put(tree.nodes)},
+            {"places", put(tree.places)},
+            {"triangles", tree.triangle_count},
+            {"width", k_shadow_tree_width},
+            {"least_margin", tree.least_margin}};
 }
 
 Json textures_json(const ExportedScene& scene, PageArrays& arrays) {
@@ -258,6 +279,7 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
                           {"model", model.plugin->name},
                           {"values", values_json(model, light.values)},
                           {"fixed", fixed_json(model, light.values)}});
+        if (scene.has_shadows) lights.back()["shadows"] = vector_json(shadow_texel(light));
     }
     const std::vector<LightBlock> blocks = light_blocks(scene);
     for (std::size_t i = 0; i < blocks.size(); ++i) {
@@ -280,32 +302,34 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
     for (std::size_t i = 0; i < scene.objects.size(); ++i) objects.push_back(object_json(scene, i, arrays));
     const std::string tables = arrays.put(std::as_bytes(scene.tables));
     Json textures = textures_json(scene, arrays);
-    return {{"title", scene.title},
-            {"candela", CANDELA_PLUGIN_VERSION},
-            {"image", image_json(scene.image)},
-            {"observer", observer_json(scene.observer)},
-            {"room", vector_json(scene.room)},
-            {"shaders",
-             {{"prelude", glsl.prelude},
-              {"library", whole_glsl_prelude()},
-              {"texture", glsl.texture},
-              {"lights", glsl.lights},
-              {"vertex", glsl.vertex},
-              {"fragment", glsl.fragment},
-              {"screen", glsl.screen},
-              {"accumulate", glsl.accumulate},
-              {"encode", glsl.encode},
-              {"lobe", std::string(candela_webgl_lobe)}}},
-            {"light_table_width", k_light_table_width},
-            {"tables", tables},
-            {"table_width", k_table_width},
-            {"textures", std::move(textures)},
-            {"lights", std::move(lights)},
-            {"light_models", std::move(light_models)},
-            {"reflection_models", std::move(reflections)},
-            {"shading_models", std::move(shadings)},
-            {"objects", std::move(objects)},
-            {"arrays", arrays.names()}};
+    Json json = {{"title", scene.title},
+                 {"candela", CANDELA_PLUGIN_VERSION},
+                 {"image", image_json(scene.image)},
+                 {"observer", observer_json(scene.observer)},
+                 {"room", vector_json(scene.room)},
+                 {"shaders",
+                  {{"prelude", glsl.prelude},
+                   {"library", whole_glsl_prelude()},
+                   {"texture", glsl.texture},
+                   {"lights", glsl.lights},
+                   {"vertex", glsl.vertex},
+                   {"fragment", glsl.fragment},
+                   {"screen", glsl.screen},
+                   {"accumulate", glsl.accumulate},
+                   {"encode", glsl.encode},
+                   {"lobe", std::string(candela_webgl_lobe)}}},
+                 {"light_table_width", k_light_table_width},
+                 {"tables", tables},
+                 {"table_width", k_table_width},
+                 {"textures", std::move(textures)},
+                 {"lights", std::move(lights)},
+                 {"light_models", std::move(light_models)},
+                 {"reflection_models", std::move(reflections)},
+                 {"shading_models", std::move(shadings)},
+                 {"objects", std::move(objects)}};
+    if (scene.has_shadows) json["shadows"] = shadows_json(scene, arrays);
+    json["arrays"] = arrays.names();
+    return json;
 }
 
 /// Invalid UTF-8 is replaced.
@@ -316,7 +340,7 @@ class WebGlTarget final : public Target {
     explicit WebGlTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.triangle = true, .vertex_colors = true, .textures = true};
+        return {.triangle = true, .vertex_colors = true, .textures = true, .shadows = true};
     }
     void write(const ExportedScene& scene, FileSink& files) const override {
         PageArrays arrays;

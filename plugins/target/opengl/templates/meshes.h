@@ -16,3 +16,4 @@ struct MeshArrays {
     const float* color;             // red green blue of each vertex, multiplied by the object's colour
 };
 @ARRAYS@
+@SHADOW_ARRAYS@

@@ -2,6 +2,7 @@
 //
 //     scene                                  a window: drag or arrow keys to look around, wheel or + - to zoom
 //                                            S: next shading model, R: next reflection model, 0: reset, Esc: quit
+@SHADOW_KEYS@
 //     scene --headless --output out.png      a picture, without a display (--width N, --height N, --shading NAME, --reflection NAME)
 //
 // Read it from top to bottom: shaders, the scene, vectors, the observer, drawing, the picture's file, the window.
@@ -80,6 +81,7 @@ struct Object {
     bool is_closed;                                         // otherwise it is seen and lit from both sides
     MeshArrays mesh;
 @TEXTURE_MEMBERS@
+@SHADOW_MEMBERS@
 };
 
 const int k_width = @WIDTH@, k_height = @HEIGHT@;
@@ -235,6 +237,7 @@ GLuint data_texture(GLint format, std::size_t width, std::size_t height, GLenum 
 
 @TABLES@
 @TEXTURES@
+@SHADOWS@
 // The lights' values as a texture that shaders read, a texel each, in rows of this width.
 GLuint light_table() {
     const std::size_t width = @LIGHT_TABLE_WIDTH@, height = k_light_values.size() / width + 1;
@@ -336,6 +339,7 @@ Canvas make_canvas(int width, int height, GLint format, bool has_depth) {
 // Models for all objects; -1: each object's own.
 struct Choice {
     int shading = -1, reflection = -1;
+@SHADOW_CHOICE@
 };
 
 class Renderer {
@@ -347,6 +351,7 @@ class Renderer {
         glActiveTexture(GL_TEXTURE2);  // passes over the screen use the first two
         light_table();
 @BIND_TABLES@
+@BIND_SHADOWS@
 @LOAD_TEXTURES@
         glActiveTexture(GL_TEXTURE0);
     }
@@ -409,6 +414,7 @@ class Renderer {
             for (const Uniform& u : object.materials[reflection]) set(program, u, "material.");
             for (const Uniform& u : object.shadings[shading]) set(program, u, "shading.");
 @BIND_TEXTURE@
+@SET_SHADOWS@
             (object.is_closed ? glEnable : glDisable)(GL_CULL_FACE);
             const Buffers& buffers = buffers_for(i, shading);
             glBindVertexArray(buffers.array);
@@ -441,6 +447,7 @@ class Renderer {
         glUseProgram(program);
         set(program, {"light_table", Uniform::whole, {2, 0, 0}});
 @SET_TABLES@
+@SET_SHADOW_TREE@
         for (const Uniform& u : k_light_counts) set(program, u);
         return program;
     }
@@ -555,6 +562,7 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
         case GLFW_KEY_KP_SUBTRACT: hand.zoom(1.1f); break;
         case GLFW_KEY_S: hand.next(hand.choice.shading, k_shadings.size()); break;
         case GLFW_KEY_R: hand.next(hand.choice.reflection, k_reflections.size()); break;
+@SHADOW_KEY@
         case GLFW_KEY_0:
         case GLFW_KEY_HOME: hand = Hand(); break;
         default: break;
@@ -622,12 +630,13 @@ int size_from(const std::string& text) {
 void print_help() {
     std::cout << "scene [options]\n"
                  "shows the scene in a window: drag or arrow keys to look around, wheel or + - to zoom,\n"
-                 "S: next shading model, R: next reflection model, 0: reset, Esc: quit.\n\n"
+                 "S: next shading model, R: next reflection model@SHADOW_KEYS_SHORT@, 0: reset, Esc: quit.\n\n"
                  "  --headless              draw a picture instead, without a display\n"
                  "  --output FILE           the picture's file, .png or .ppm; default: scene.png\n"
                  "  --width N, --height N   of the picture, in pixels\n"
                  "  --shading NAME          of all objects: " << names_of(k_shadings) << "\n"
                  "  --reflection NAME       of all objects: " << names_of(k_reflections) << "\n"
+@SHADOW_HELP@
                  "  --help                  this text\n";
 }
 
@@ -648,6 +657,7 @@ void run(const std::vector<std::string>& words) {
         else if (words[i] == "--height") height = size_from(value());
         else if (words[i] == "--shading") choice.shading = model_called(value(), k_shadings);
         else if (words[i] == "--reflection") choice.reflection = model_called(value(), k_reflections);
+@SHADOW_ARGUMENT@
         else throw std::runtime_error("unknown argument '" + words[i] + "'; --help lists them");
     }
     if (is_headless) write_headless(output, choice, width, height);

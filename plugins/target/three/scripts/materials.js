@@ -1,6 +1,7 @@
 import { Color, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3, IntType, Matrix4, MeshLambertMaterial, NearestFilter, RawShaderMaterial,
     RedFormat, RGBAIntegerFormat, UnsignedShortType, Vector3 } from "three";
 import { bytesOf } from "../../../../sdk/web/arrays.js";
+import { shadowTexels } from "../../../../sdk/web/shadow_tree.js";
 import { levelsOf, sizeWithLevels } from "../../../../sdk/web/texture_levels.js";
 
 export const HEADER = "precision highp float;\nprecision highp int;\n";
@@ -18,6 +19,16 @@ function tableTexture(Type, bytes, components, width, ...formats) {
     const texels = new Type(components * width * height);
     texels.set(numbers);
     return dataTexture(texels, width, height, ...formats);
+}
+
+/** The uniforms with which shaders find out whether light is blocked; none in a scene without shadows. */
+function shadowUniforms({ shadows, objects, image }) {
+    if (!shadows) return {};
+    const { height, texels } = shadowTexels(shadows, objects);
+    return {
+        shadow_tree: { value: dataTexture(texels, shadows.width, height, RGBAIntegerFormat, IntType, "RGBA32I") },
+        least_margin: { value: shadows.least_margin }, picture_height: { value: image.height },
+    };
 }
 
 /** A texture's uniforms, by name. */
@@ -49,10 +60,12 @@ export class KernelMaterials {
         this.seen = {
             view_projection: { value: new Matrix4() }, eye: { value: new Vector3() }, is_orthographic: { value: false },
             towards_observer: { value: new Vector3() }, pixel_right: { value: new Vector3() }, pixel_up: { value: new Vector3() },
+            line_of_sight: { value: new Vector3() },
         };
         this.lights = Object.fromEntries(Object.entries(json.light_counts).map(([name, value]) => [name, { value }]));
         this.lights.light_table = { value: tableTexture(Int32Array, bytesOf(json.light_table), 4, json.light_table_width, RGBAIntegerFormat, IntType, "RGBA32I") };
         this.lights.table_numbers = { value: tableTexture(Float32Array, bytesOf(json.tables), 1, json.table_width, RedFormat, FloatType, "R32F") };
+        this.shadows = shadowUniforms(json);
         this.textures = json.textures.map((picture) => textureUniforms(picture, json.image.is_srgb));
     }
 
@@ -62,7 +75,7 @@ export class KernelMaterials {
             shaders.prelude, isTextured ? shaders.texture : "", shaders.lights, shaders.reflections[object.reflection],
             shaders.shadings[object.shading], "",
         ].join("\n");
-        const uniforms = { ...this.seen, ...this.lights };
+        const uniforms = { ...this.seen, ...this.lights, ...this.shadows };
         for (const [name, value] of Object.entries(object.uniforms)) uniforms[name] = { value };
         if (isTextured) {
             const { color_texels, size } = this.textures[object.texture];

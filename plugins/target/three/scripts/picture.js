@@ -1,5 +1,5 @@
 import { Color, ColorManagement, Scene, WebGLRenderer } from "three";
-import { clippingPlanes, pixelSize, viewAxes } from "../../../../sdk/web/camera.js";
+import { clippingPlanes, lineOfSight, pixelSize, viewAxes } from "../../../../sdk/web/camera.js";
 import { scale } from "../../../../sdk/web/vectors.js";
 import { cameraOf } from "./camera.js";
 import { Film } from "./film.js";
@@ -49,6 +49,7 @@ export class Picture {
         this.film.clear();
         for (const [x, y] of samples) {
             camera.setViewOffset(width, height, x - 0.5, y - 0.5, width, height);
+            this.seen.line_of_sight.value.set(...lineOfSight(observer, width, height, [x, y]));
             this.seen.view_projection.value.multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse);
             this.film.add(this.scene, camera, 1 / samples.length);
         }

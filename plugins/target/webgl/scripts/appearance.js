@@ -1,5 +1,5 @@
 import { decodeColor } from "../../../../sdk/web/colors.js";
-import { COLOR } from "./parameters.js";
+import { COLOR, SHADOWS_PATH } from "./parameters.js";
 import { normalize } from "../../../../sdk/web/vectors.js";
 
 /** A parameter's value for a shader: { kind: "int" | "float" | "vec3", value }, angles in radians. */
@@ -39,14 +39,15 @@ function modelUniforms(settings, model, prefix, fixed, struct, isSrgb) {
     return [...adjustable, ...Object.entries(fixed).flatMap(([name, value]) => fixedUniforms(`${struct}.${name}`, value))];
 }
 
-/** The members of a light's struct, in their order: a value for each texel. */
-function structMembers(settings, model, prefix, fixed, isSrgb) {
-    return model.block.members.flatMap((name) => {
+/** The members of a light's struct, in their order: a value for each texel. In a scene with shadows, they end with the light's. */
+function structMembers(settings, model, prefix, { fixed, shadows }, isSrgb) {
+    const members = model.block.members.flatMap((name) => {
         const parameter = model.parameters.find((p) => p.name === name);
         if (parameter) return [toUniform(parameter, settings.get(prefix + name), isSrgb)];
         const { kind, value } = fixed[name];
         return kind === "mat3" ? [0, 3, 6].map((i) => ({ kind: "vec3", value: value.slice(i, i + 3) })) : [{ kind: "int", value }];
     });
+    return shadows ? [...members, { kind: "vec3", value: shadows }] : members;
 }
 
 /** The values of an object's material that a reflection model reads, whether or not it is the object's own model. */
@@ -61,10 +62,11 @@ export function appearanceOf(settings) {
     const { scene } = settings;
     const isSrgb = scene.image.color_management === "srgb";
     const lights = scene.lights
-        .map(({ model, fixed }, i) => ({ model, fixed, isOn: settings.get(`light.${i}.on`), prefix: `light.${i}.value.` }))
+        .map((light, i) => ({ light, isOn: settings.get(`light.${i}.on`), prefix: `light.${i}.value.` }))
         .filter(({ isOn }) => isOn)
-        .map(({ model, fixed, prefix }) =>
-            ({ model, members: structMembers(settings, scene.light_models[model], prefix, fixed, isSrgb) }));
+        .map(({ light, prefix }) =>
+            ({ model: light.model, members: structMembers(settings, scene.light_models[light.model], prefix, light, isSrgb) }));
+    const hasShadows = settings.find(SHADOWS_PATH) !== null && settings.get(SHADOWS_PATH);
     const objects = scene.objects.map((object, i) => {
         const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
         const shadingModel = scene.shading_models[shading];
@@ -72,6 +74,8 @@ export function appearanceOf(settings) {
             shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
             isTextured: object.texture !== null,
             uniforms: [
+                ["object_index", { kind: "int", value: i }],
+                ["is_shadowed", { kind: "int", value: hasShadows && object.receives_shadows ? 1 : 0 }],
                 ["object_color", toUniform(COLOR, settings.get(`object.${i}.color`), isSrgb)],
                 ...materialUniforms(settings, i, reflection),
                 ...modelUniforms(

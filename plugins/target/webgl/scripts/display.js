@@ -2,9 +2,9 @@ import { element } from "../../../../sdk/web/elements.js";
 import { FromOutside } from "./from_outside.js";
 import { Markers } from "./markers.js";
 import { Panes } from "./panes.js";
-import { SHOWN } from "./parameters.js";
+import { SHADOWS_PATH, SHOWN } from "./parameters.js";
 
-const TITLES = { lights: "Lights", room: "Room", axes: "Axes", observer: "From outside" };
+const TITLES = { shadows: "Shadows", lights: "Lights", room: "Room", axes: "Axes", observer: "From outside" };
 
 /** The display in addition to the scene's picture: lights, room and axes over it, and other pictures next to it. */
 export class Display {
@@ -13,14 +13,15 @@ export class Display {
         Object.assign(this, { settings, bounds, setOthers, container: picture.parentElement });
         this.markers = new Markers({ settings, picture, observer: () => settings.observer(), bounds });
         const isAlone = setOthers === null;
-        this.boxes = SHOWN.filter(({ name }) => !isAlone || name !== "observer").map(({ name }) => {
+        const shown = SHOWN.filter(({ name }) => !isAlone || name !== "observer").map(({ name }) => [name, `show.${name}`]);
+        this.boxes = [["shadows", SHADOWS_PATH], ...shown].map(([name, path]) => {
             const box = element("input", { type: "checkbox", id: `show-${name}` });
             box.addEventListener("change", () => {
-                settings.set(`show.${name}`, box.checked);
-                settings.notify(`show.${name}`);
+                settings.set(path, box.checked);
+                settings.notify(path);
             });
             document.getElementById("shown").append(element("label", {}, box, ` ${TITLES[name]}`));
-            return [name, box];
+            return [path, box];
         });
         this.outside = null;
         this.paneViews = [];
@@ -35,12 +36,16 @@ export class Display {
             },
         });
         settings.listeners.push((path) => {
-            if (path === null || path.startsWith("show.")) this.refresh();
+            if (path === null || path === SHADOWS_PATH || path.startsWith("show.")) this.refresh();
         });
     }
 
     refresh() {
-        for (const [name, box] of this.boxes) box.checked = this.settings.get(`show.${name}`);
+        for (const [path, box] of this.boxes) {
+            // Scenes come and go, with and without shadows.
+            box.parentElement.hidden = this.settings.find(path) === null;
+            if (!box.parentElement.hidden) box.checked = this.settings.get(path);
+        }
         const isWanted = this.setOthers !== null && this.settings.get("show.observer");
         if (isWanted === (this.outside !== null)) return;
         this.outside?.release();

@@ -19,4 +19,8 @@ export const COLOR = makeParameter("color", "color", { meaning: "the object's ow
 export const SHOWN = ["lights", "room", "axes", "observer"].map((name) => makeParameter(name, "boolean"));
 export const LAYOUT = makeParameter("panes", "choice", { choices: ["one", "two", "three", "four", "wipe"] });
 
+/** Whether objects block light; only in a scene with shadows. */
+export const SHADOWS_PATH = "shadows.enabled";
+export const SHADOWS = makeParameter("enabled", "boolean");
+
 export const SWITCH = makeParameter("on", "boolean", { meaning: "whether the light is on" });

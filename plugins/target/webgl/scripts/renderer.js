@@ -1,8 +1,9 @@
-import { clippingPlanes, pixelSize, viewAxes, viewProjection } from "../../../../sdk/web/camera.js";
+import { clippingPlanes, lineOfSight, pixelSize, viewAxes, viewProjection } from "../../../../sdk/web/camera.js";
 import { Film } from "./film.js";
 import { LightTable } from "./lights.js";
 import { Mesh } from "./mesh.js";
 import { ProgramCache } from "../../../../sdk/web/programs.js";
+import { Shadows } from "./shadows.js";
 import { Tables } from "./tables.js";
 import { Texture } from "./textures.js";
 import { scale } from "../../../../sdk/web/vectors.js";
@@ -11,6 +12,7 @@ const POLL_MS = 2;
 const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
 const TABLES_UNIT = 3;
 const TEXTURE_UNIT = 4;
+const SHADOWS_UNIT = 5;
 
 /** Turns an appearance (observer, lights, objects) into pixels: one pass per sample, their weighted sum, its encoding. */
 export class Renderer {
@@ -26,6 +28,7 @@ export class Renderer {
         this.textures = scene.textures.map((texture) =>
             previous?.textures.find((one) => one.isOf(texture, this.isSrgb)) ?? new Texture(gl, texture, this.isSrgb));
         for (const texture of this.textures) texture.users += 1;
+        this.shadows = this.shadowsOf(scene, previous);
         this.bounds = this.meshes.map((mesh) => mesh.bounds);
         this.lights = new LightTable(gl, scene);
         this.tables = new Tables(gl, scene);
@@ -40,10 +43,19 @@ export class Renderer {
     /** Programs that another renderer uses stay. */
     release() {
         for (const one of [...this.meshes, ...this.textures]) one.release();
+        this.shadows?.release();
         this.lights.release();
         this.tables.release();
         this.programs.release();
         this.gl.deleteVertexArray(this.emptyVertexArray);
+    }
+
+    /** Null if the scene has none. */
+    shadowsOf(scene, previous) {
+        if (!scene.shadows) return null;
+        const shadows = previous?.shadows?.isOf(scene) ? previous.shadows : new Shadows(this.gl, scene);
+        shadows.users += 1;
+        return shadows;
     }
 
     chooseFloatFormat() {
@@ -107,6 +119,9 @@ export class Renderer {
             pixel_up: { kind: "vec3", value: scale(axes.up, pixel) },
             ...this.lights.bind(LIGHTS_UNIT, appearance.lights),
             ...this.bindTables(),
+            ...this.shadows?.bind(SHADOWS_UNIT),
+            picture_height: { kind: "int", value: film.height },
+            line_of_sight: { kind: "vec3", value: lineOfSight(observer, film.width, film.height, position) },
         };
         gl.bindFramebuffer(gl.FRAMEBUFFER, film.picture.framebuffer);
         gl.viewport(0, 0, film.width, film.height);

@@ -1,6 +1,6 @@
 import { validateObserver } from "../../../../sdk/web/camera.js";
 import { areLightsShown } from "./light_places.js";
-import { COLOR, LAYOUT, OBSERVER_PARAMETERS, SHOWN, SWITCH, makeParameter } from "./parameters.js";
+import { COLOR, LAYOUT, OBSERVER_PARAMETERS, SHADOWS, SHADOWS_PATH, SHOWN, SWITCH, makeParameter } from "./parameters.js";
 import { validateValue } from "./validation.js";
 import { areEqual, canonicalValue } from "../../../../sdk/web/values.js";
 
@@ -78,6 +78,8 @@ export class Settings {
         if (path === "shading" || path === "reflection") {
             const choices = ["", ...Object.keys(scene[`${kind}_models`])];
             found = { parameter: makeParameter(kind, "choice", { choices }), initial: "" };
+        } else if (path === SHADOWS_PATH) {
+            found = scene.shadows && { parameter: SHADOWS, initial: true };
         } else if (path === "panes") {
             found = { parameter: LAYOUT, initial: "one" };
         } else if (kind === "show" && rest.length === 1) {

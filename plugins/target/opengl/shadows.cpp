@@ -1,0 +1,93 @@
+#include "shadows.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "candela/embed.h"
+#include "candela/target/arrays.h"
+#include "candela/target/literals.h"
+#include "candela/target/shadow_tree.h"
+
+CANDELA_EMBED(candela_opengl_shadows, CANDELA_SOURCE_DIR "/templates/shadows.cpp");
+
+namespace candela::opengl_target {
+
+using namespace target;
+
+namespace {
+
+constexpr const char* k_members =
+    "    bool receives_shadows;\n"
+    "    bool is_solid;  // closed, with nothing inside: it blocks light only where the light enters it\n";
+
+constexpr const char* k_set_object =
+    "            set(program, {\"object_index\", Uniform::whole, {static_cast<float>(i), 0, 0}});\n"
+    "            set(program, {\"is_shadowed\", Uniform::whole, {object.receives_shadows && "
+    "choice.has_shadows ? 1.0f : 0.0f, 0, 0}});\n"
+    "            set_sight(program, observer, view, width, height, sample);\n"
+    "            set(program, {\"picture_height\", Uniform::whole, {static_cast<float>(height), 0, 0}});\n";
+
+constexpr const char* k_key =
+    "        case GLFW_KEY_H:\n"
+    "            hand.choice.has_shadows = !hand.choice.has_shadows;\n"
+    "            hand.is_dirty = true;\n"
+    "            break;\n";
+
+constexpr const char* k_help = "                 \"  --no-shadows            objects block no light\\n\"\n";
+
+constexpr const char* k_argument =
+    "        else if (words[i] == \"--no-shadows\") choice.has_shadows = false;\n";
+
+constexpr const char* k_struct = R"(
+// The tree of boxes around the triangles that block light, node by node, each before its children.
+struct ShadowTree {
+    std::size_t nodes, triangles;
+    const int* links;   // two numbers a node: the node at which a ray goes on that misses its box, or that has met its
+                        // triangles, or -1; and 8 times the first texel of its triangles plus their number, or -1
+    const int* places;  // of each triangle of all objects in the tree, or -1
+};
+)";
+
+std::string arrays_of(const ShadowTree& tree) {
+    return k_struct +
+           fmt::format("inline ShadowTree shadow_tree() {{\n{}{}    return {{{}, {}, links, places}};\n}}\n",
+                       number_array("int", "links", tree.nodes), number_array("int", "places", tree.places),
+                       tree.nodes.size() / 2, tree.triangle_count);
+}
+
+}  // namespace
+
+Values shadow_values(const ExportedScene& scene) {
+    const auto if_shadows = [&](const char* text) { return scene.has_shadows ? text : ""; };
+    std::string texture, arrays, set_tree;
+    if (scene.has_shadows) {
+        const ShadowTree tree = shadow_tree(scene);
+        texture = filled(candela_opengl_shadows, {{"WIDTH", fmt::format("{}", k_shadow_tree_width)}});
+        arrays = arrays_of(tree);
+        set_tree = fmt::format(
+            "        set(program, {{\"shadow_tree\", Uniform::whole, {{5, 0, 0}}}});\n"
+            "        set(program, {{\"least_margin\", Uniform::real, {{{}, 0, 0}}}});\n",
+            float_text(tree.least_margin));
+    }
+    return {
+        {"SHADOW_KEYS", if_shadows("//                                            H: shadows on or off\n")},
+        {"SHADOW_KEYS_SHORT", if_shadows(", H: shadows on or off")},
+        {"SHADOW_HELP", if_shadows(k_help)},
+        {"SHADOW_README", if_shadows(", turn shadows off and on with H")},
+        {"SHADOW_ARGUMENT", if_shadows(k_argument)},
+        {"SHADOW_MEMBERS", if_shadows(k_members)},
+        {"SHADOW_CHOICE", if_shadows("    bool has_shadows = true;\n")},
+        {"SHADOW_KEY", if_shadows(k_key)},
+        {"SHADOWS", std::move(texture)},
+        {"BIND_SHADOWS", if_shadows("        glActiveTexture(GL_TEXTURE5);\n        shadow_texture();\n")},
+        {"SET_SHADOW_TREE", std::move(set_tree)},
+        {"SET_SHADOWS", if_shadows(k_set_object)},
+        {"SHADOW_ARRAYS", std::move(arrays)}};
+}
+
+std::string shadow_members(const ExportedScene& scene, const ExportedObject& object, bool is_solid) {
+    return scene.has_shadows ? fmt::format(", {}, {}", object.receives_shadows, is_solid) : "";
+}
+
+}  // namespace candela::opengl_target

@@ -1,0 +1,43 @@
+import { bytesOf, floatsOf, indicesOf } from "./arrays.js";
+
+const integersOf = (name) => new Int32Array(bytesOf(name).buffer);
+
+/**
+ * The tree of boxes around the triangles that block light, as shaders read it: texels of four integers in rows of
+ * `tree.width`, positions as bits of floats. First the nodes, whose boxes are found here, then the triangles.
+ */
+export function shadowTexels(tree, objects) {
+    const nodes = integersOf(tree.nodes), places = integersOf(tree.places), first = nodes.length;
+    const height = Math.ceil((first + 3 * tree.triangles) / tree.width);
+    const integers = new Int32Array(4 * tree.width * height), floats = new Float32Array(integers.buffer);
+    let number = 0;
+    objects.forEach(({ mesh, is_solid }, i) => {
+        const positions = floatsOf(mesh.position), indices = indicesOf(mesh.indices);
+        for (let t = 0; t < indices.length; t += 3) {
+            const place = places[number++];
+            if (place < 0) continue;
+            const at = 4 * (first + 3 * place);
+            for (let k = 0; k < 9; ++k) floats[at + k + Math.floor(k / 3)] = positions[3 * indices[t + Math.floor(k / 3)] + (k % 3)];
+            integers[at + 3] = 2 * i + (is_solid ? 1 : 0);
+        }
+    });
+    // Children come after their parents. A node takes eight numbers, the corners of its box, each with a link.
+    for (let node = first - 2; node >= 0; node -= 2) {
+        const [next, leaf] = nodes.subarray(node, node + 2), low = 4 * node, high = low + 4;
+        floats.fill(Infinity, low, low + 3).fill(-Infinity, high, high + 3);
+        const include = (from, to) => {
+            for (let k = 0; k < 3; ++k) {
+                floats[low + k] = Math.min(floats[low + k], floats[from + k]);
+                floats[high + k] = Math.max(floats[high + k], floats[to + k]);
+            }
+        };
+        if (leaf < 0) {
+            for (const child of [node + 2, 2 * nodes[node + 2]]) include(4 * child, 4 * child + 4);
+        } else {
+            for (let texel = leaf >> 3; texel < (leaf >> 3) + 3 * (leaf & 7); ++texel) include(4 * texel, 4 * texel);
+        }
+        integers[low + 3] = next;
+        integers[high + 3] = leaf;
+    }
+    return { height, texels: integers };
+}
