@@ -97,12 +97,6 @@ class LightLoopWriter {
         LightLoop loop;
         loop.declarations = fmt::format("uniform int {};\n", block_.count);
         if (has_parameters(model_)) read_parameters(loop);
-        if (scene_.has_shadows)
-            body_ += fmt::format(
-                "        vec3 shadows = table_vec3({} + {} * i);  // whether objects block the light; rays "
-                "and "
-                "distance of its ambient occlusion\n",
-                block_.first + block_.size - 1, block_.size);
         if (has_function(model_, "illuminate")) add_samples();
         if (has_function(model_, "illuminate_ambient")) add_ambient();
         loop.statements = fmt::format("    for (int i = 0; i < {}; ++i) {{\n{}    }}\n", block_.count, body_);
@@ -131,7 +125,9 @@ class LightLoopWriter {
     }
 
     void add_samples() {
-        if (scene_.has_shadows) body_ += "        bool is_blocked = is_shadowed && shadows.x > 0.0;\n";
+        if (scene_.has_shadows)
+            body_ +=
+                fmt::format("        bool can_be_blocked = is_shadowed && {}.x > 0.0;\n", shadow_settings());
         if (!has_samples_) {
             add_sample("        ");
             return;
@@ -149,15 +145,16 @@ class LightLoopWriter {
         line(fmt::format("Incident incident = {};", kernel));
         if (varies()) {
             line(fmt::format("Punctual source = {};", description("punctual")));
-            line("if (is_blocked) {");
-            line(fmt::format("    source = moved(source, {}, {});", description("extent"), k));
+            line("if (can_be_blocked) {");
+            line(fmt::format("    source = moved_within(source, {}, {});", description("extent"), k));
             line("    incident = punctual_light(source, r);");
             line("}");
         }
         constexpr const char* k_reflected =
             "reflected.diffuse * incident.diffuse + reflected.specular * incident.specular";
         if (scene_.has_shadows)
-            line(fmt::format("float reached = is_blocked ? visibility(r, incident, {}) : 1.0;", distance()));
+            line(fmt::format("float reached = can_be_blocked ? visible_part(r, incident, {}) : 1.0;",
+                             distance()));
         line("Reflected reflected = reflect_light(s, incident.to_light);");
         line(fmt::format(fmt::runtime(scene_.has_shadows ? "sum += reached * ({});" : "sum += {};"),
                          k_reflected));
@@ -169,11 +166,18 @@ class LightLoopWriter {
         });
         const bool is_occluded = scene_.has_shadows && has_occlusion;
         if (is_occluded)
-            body_ +=
-                "        float free = is_shadowed && shadows.y > 0.0 ? ambient_visibility(r, "
-                "int(shadows.y), shadows.z) : 1.0;\n";
+            body_ += fmt::format(
+                "        vec3 shadows = {};  // y: rays of its ambient occlusion, z: their length\n"
+                "        float free = is_shadowed && shadows.y > 0.0 ? visible_ambient_part(r, "
+                "int(shadows.y), shadows.z) : 1.0;\n",
+                shadow_settings());
         body_ += fmt::format("        sum += {}reflect_ambient(s) * {};\n", is_occluded ? "free * " : "",
                              call(model_, "illuminate_ambient", "light", "r"));
+    }
+
+    /// The light's shadow_texel().
+    std::string shadow_settings() const {
+        return fmt::format("table_vec3({} + {} * i)", block_.first + block_.size - 1, block_.size);
     }
 
     /// A call of a function for which describes() is true.

@@ -48,10 +48,32 @@ def grid(columns, size):
 SCREEN = "".join(f"v {x} 0 0\nv {x + 0.12:.2f} 0 0\nv {x + 0.12:.2f} 1 0\nv {x} 1 0\n" for x in (-0.5, -0.25, 0, 0.25)) + "".join(
     f"f {i} {i + 1} {i + 2} {i + 3}\n" for i in (1, 5, 9, 13))
 
+# A light that is not data, and says how far away it is: an object beyond it does not block it.
+LANTERN = """/// # Lantern
+/// A lamp that is brighter towards the side.
+struct LanternLight {
+    vec3 position;    /// point in m: where it is
+    float intensity;  /// = 8 [0, inf): at one metre
+};
+
+KERNEL Incident lantern_illuminate(LanternLight light, Receiver r) {
+    vec3 to_source = light.position - r.position;
+    float square = max(dot(to_source, to_source), 1.0e-8f);
+    vec3 to_light = to_source * inversesqrt(square);
+    vec3 sent = vec3(light.intensity * (1.5f - to_light.y * to_light.y) / square);
+    return Incident(to_light, sent, sent);
+}
+
+KERNEL float lantern_distance(LanternLight light, Receiver r) {
+    return length(light.position - r.position);
+}
+"""
+
 
 def files():
     """The files that the scenes use, by name. The floor of two triangles also reaches behind the observer."""
-    return {name: text.encode() for name, text in {"floor.obj": grid(1, 30), "fine.obj": grid(90, 9), "screen.obj": SCREEN}.items()}
+    return {name: text.encode() for name, text in {
+        "floor.obj": grid(1, 30), "fine.obj": grid(90, 9), "screen.obj": SCREEN, "lantern.kernel": LANTERN}.items()}
 
 
 def thing(text, color=(210, 190, 170), shading="phong", reflection="phong", more=""):
@@ -121,6 +143,9 @@ SCENES = [
     ("models that light beyond the horizon", 1, "fixed", SEEN_FLAT,
      AMBIENT + "ambient_occlusion_rays = 8\nambient_occlusion_distance = 1\n" + SUN + SPOT + floor() + still_life(reflection="half-lambert") +
      ball(1.4, 1.2, segments=8, reflection="gooch")),
+    ("a light of another author", 1, "varied", SEEN,
+     AMBIENT + '[[light]]\ntype = "lantern.kernel"\nposition = [1.6, 3.1, 1.9]\nintensity = 9\n' + floor() + still_life() +
+     thing('type = "cube"\nsize = 0.6\nposition = [1.75, 3.6, 2.05]\n')),
     ("a millimetre", 1, "varied", *of_size(0.001)),
     ("a kilometre", 1, "varied", *of_size(1000)),
 ]

@@ -1,7 +1,7 @@
 
 // The part of the light from everywhere that reaches a point: of rays distributed by the cosine around the normal, those that
 // meet nothing within a distance.
-float ambient_visibility(Receiver r, int rays, float distance) {
+float visible_ambient_part(Receiver r, int rays, float distance) {
     vec2 offsets = @OFFSETS@;
     vec3 n = r.normal;
     // Duff et al. (2017), "Building an orthonormal basis, revisited".
@@ -15,7 +15,7 @@ float ambient_visibility(Receiver r, int rays, float distance) {
         float square = (float(k) + 0.5 + offsets.x) / float(rays);
         float angle = 6.2831853 * fract(0.61803399 * float(k) + 0.5 + offsets.y);
         vec3 direction = sqrt(square) * (cos(angle) * tangent + sin(angle) * bitangent) + sqrt(1.0 - square) * n;
-        sum += visibility(r, direction, distance);
+        sum += visible_part(r, direction, distance);
     }
     return sum / float(rays);
 }

@@ -1,6 +1,6 @@
 
 // The light of sample k of a light with an extent, from another point of the part that it stands for.
-Punctual moved(Punctual light, Extent part, int k) {
+Punctual moved_within(Punctual light, Extent part, int k) {
     vec2 offsets = sample_offsets(k);
     light.position += offsets.x * part.u + offsets.y * part.v;
     return light;

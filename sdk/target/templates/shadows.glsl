@@ -31,7 +31,7 @@ bool is_let_through(int owner, float cosine, bool is_below) {
 
 // By the signs of the volumes between the ray and the triangle's edges. Two triangles compute the same volume for the edge that
 // they share, so that no ray slips through between them.
-bool blocks(int triangle, vec3 from, vec3 direction, float reach, bool is_below) {
+bool triangle_blocks(int triangle, vec3 from, vec3 direction, float reach, bool is_below) {
     ivec4 first = tree_texel(triangle);
     vec3 a = intBitsToFloat(first.xyz) - from;
     vec3 b = tree_position(triangle + 1) - from;
@@ -51,7 +51,7 @@ bool blocks(int triangle, vec3 from, vec3 direction, float reach, bool is_below)
     return along >= 0.0 && along <= reach;
 }
 
-bool is_free(vec3 from, vec3 direction, float reach, bool is_below) {
+bool ray_is_free(vec3 from, vec3 direction, float reach, bool is_below) {
     vec3 inverse = 1.0 / mix(direction, vec3(1.0e-18), lessThan(abs(direction), vec3(1.0e-18)));
     for (int node = 0; node >= 0;) {
         ivec4 low = tree_texel(2 * node);
@@ -70,7 +70,7 @@ bool is_free(vec3 from, vec3 direction, float reach, bool is_below) {
         int triangle = high.w >> 3;
         int end = meets ? triangle + 3 * (high.w & 7) : triangle;
         for (; triangle < end; triangle += 3) {
-            if (blocks(triangle, from, direction, reach, is_below)) return false;
+            if (triangle_blocks(triangle, from, direction, reach, is_below)) return false;
         }
         node = low.w;
     }
@@ -80,17 +80,17 @@ bool is_free(vec3 from, vec3 direction, float reach, bool is_below) {
 bool lights_below_horizon();
 
 // The part of the light from a direction that reaches a point: 1, or 0 if an object blocks it.
-float visibility(Receiver r, vec3 to_light, float distance) {
+float visible_part(Receiver r, vec3 to_light, float distance) {
     if (!lights_below_horizon() && dot(r.normal, to_light) <= 0.0) return 1.0;
     vec3 p = abs(r.position);
     float margin = max(least_margin, 9.5367432e-7 * max(max(p.x, p.y), p.z));
     float reach = 0.999999 * distance - 2.0 * margin;
     if (reach <= 0.0) return 1.0;
     bool is_below = dot(seen_side, to_light) < 0.0;
-    return is_free(r.position + (is_below ? -margin : margin) * seen_side, to_light, reach, is_below) ? 1.0 : 0.0;
+    return ray_is_free(r.position + (is_below ? -margin : margin) * seen_side, to_light, reach, is_below) ? 1.0 : 0.0;
 }
 
-float visibility(Receiver r, Incident incident, float distance) {
+float visible_part(Receiver r, Incident incident, float distance) {
     bool is_lit = dot(incident.diffuse + incident.specular, vec3(1.0)) > 0.0;
-    return is_lit ? visibility(r, incident.to_light, distance) : 1.0;
+    return is_lit ? visible_part(r, incident.to_light, distance) : 1.0;
 }
