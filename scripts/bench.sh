@@ -11,6 +11,7 @@
 #   scripts/bench.sh --animation                  200 frames in one process against 200 processes (half a minute); --workers: frames of
 #                                                 4K by two workers against one
 #   scripts/bench.sh --textures                   frames with a texture of 4096 x 4096 against frames without (two minutes)
+#   scripts/bench.sh --shadows                    frames with shadows against those without, rays against a bare loop over Embree (five minutes)
 #   scripts/bench.sh --python                     models and pictures in Python against C++ (a minute)
 #   scripts/bench.sh --instructions               records how many instructions the default scene takes, for a test to compare
 # Use an otherwise idle machine.
@@ -19,7 +20,7 @@ root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
 
 mode=opengl
-if [[ ${1-} =~ ^--(sweep|growth|programs|mesh-file|view|third-party|animation|textures|python|instructions)$ ]]; then
+if [[ ${1-} =~ ^--(sweep|growth|programs|mesh-file|view|third-party|animation|textures|shadows|python|instructions)$ ]]; then
     mode=${1#--}
     shift
 fi
@@ -34,6 +35,7 @@ case $mode in
     opengl) script=bench ;;
     programs | mesh-file) setup=(--programs) ;;
     sweep | growth) out=("$root/build/bench") ;;
+    shadows) targets+=(candela_occlusion_rays); out=("$root/build/bench") ;;
     view) python=/usr/bin/python3; out=() ;;
     python) python=/usr/bin/python3; out=(); targets+=(candela_python_package candela_python_rival) ;;
     third-party) targets=(all) ;;

@@ -34,7 +34,7 @@ def main() -> None:
     out = options.out
     model = f"large.{options.format}"
     large_mesh.write(out / model, options.rows)
-    candela = [str(options.build / "bin/candela"), "render", model, "-o", "candela.png", "--width", width, "--height", height]
+    candela = [str(options.build / "bin/candela"), "render", model, "--no-shadows", "-o", "candela.png", "--width", width, "--height", height]
     f3d = ["f3d", model, "--output", "f3d.png", f"--resolution={width},{height}"]
     for words in (candela, f3d):  # the file comes from memory from now on
         seconds_of(words, out)
