@@ -105,8 +105,9 @@ struct SampleLoop {
             const vec3 to_source = is_near ? l * distance[i] - shift : l;
             const float r = kernel::sqrt(kernel::dot(to_source, to_source));
             kernel::store(to, i, p + shift);
-            kernel::store(direction, i, r > 0.0f ? to_source * (1.0f / r) : l);
-            length[i] = is_near ? r : distance[i];
+            // Points that stay where they are keep their rays, so that no rounding tells batches apart.
+            kernel::store(direction, i, moves && r > 0.0f ? to_source * (1.0f / r) : l);
+            length[i] = moves && is_near ? r : distance[i];
         }
     }
 };

@@ -175,6 +175,7 @@ constexpr std::array k_texture_mutations = {
                                                "color_texture_wrapped(uv.y, t.repeats)"}},
 };
 
+#ifndef CANDELA_TEST_SHADERS
 /// A coarse ball and a bent sheet over a floor. A light is below the ball's shadow, and one is not blocked.
 constexpr const char* k_shadow_scene = R"(version = 1
 observer = {position = [0, 1.6, 4.4], look_at = [0, -0.3, 0], fov = 45}
@@ -219,6 +220,7 @@ constexpr std::array k_shadow_mutations = {
     std::pair{"ambient occlusion reaches too far", Edit{"{8, 1.5f}", "{8, 3.0f}"}},
     std::pair{"rays of ambient occlusion are not turned", Edit{"0.61803399f * k", "0.0f * k"}},
 };
+#endif
 static_assert(k_shadow_mutations.size() == 12);
 
 /// Replaces all occurrences. None is an error of this test, because the fault would be missing.
