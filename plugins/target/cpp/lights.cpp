@@ -43,7 +43,7 @@ std::string constants(const ExportedScene& scene) {
 /// Whether the model's kernel has that function, which the descriptor need not list.
 bool has_kernel_function(const ExportedModel& model, std::string_view name) {
     const KernelText& kernel = model.plugin->kernel;
-    const std::regex declared(fmt::format("\\b{}_{}\\s*\\(", kernel.prefix, name));
+    const std::regex declared(fmt::format(R"(\b{}_{}\s*\()", kernel.prefix, name));
     return std::regex_search(without_comments(kernel.text), declared);
 }
 
@@ -61,15 +61,11 @@ class LightLoop {
                 std::ranges::any_of(light.punctual, [](const auto& p) { return p.w != 0; });
             is_placed_ = is_placed_ || (casts && is_source);
         }
-        is_placed_ = is_placed_ || has_function(model_, "distance");
-        for (const auto& [is_needed, function] :
-             {std::pair(has_extents_, "extent"),
-              std::pair(is_placed_ && !has_function(model_, "distance"), "punctual")}) {
-            if (is_needed && !has_kernel_function(model_, function))
-                throw std::runtime_error(fmt::format(
-                    "{} is data that its kernel does not describe (there is no function {}_{}), so a C++ "
-                    "program cannot find its shadows",
-                    model_.id, model_.plugin->kernel.prefix, function));
+        if (has_extents_) require("extent");
+        if (has_function(model_, "distance")) {
+            is_placed_ = true;
+        } else if (is_placed_) {
+            require("punctual");
         }
     }
 
@@ -111,6 +107,13 @@ class LightLoop {
     }
 
   private:
+    void require(const char* function) const {
+        if (has_kernel_function(model_, function)) return;
+        throw std::runtime_error(
+            fmt::format("{} is data that its kernel does not describe (there is no function {}_{}), so a C++ "
+                        "program cannot find its shadows",
+                        model_.id, model_.plugin->kernel.prefix, function));
+    }
     bool is_mixed() const { return casting_ > 0 && others_ > 0 && has_function(model_, "illuminate"); }
     std::string named(const char* what) const {
         return fmt::format("k_{}_{}", model_.plugin->kernel.prefix, what);

@@ -66,8 +66,9 @@ std::string light_text(const ExportedScene& scene, const PunctualLight& light, c
         files.approximate(fmt::format("{} has highlights of its diffuse light's colour", model).c_str());
     const std::string rgb = rgb_text({color.r, color.g, color.b});
     if (light.w == 0) {
-        // The light is outside the room; its rays are parallel to the one towards the origin.
-        const float distance = 2 * std::max(length(scene.room), 100.0f);
+        // The light is outside the room, and behind all that may block it; its rays are parallel to the one
+        // towards the origin.
+        const float distance = 2 * std::max(length(scene.room), scene.has_shadows ? 5e5f : 100.0f);
         return fmt::format("light_source {{ {} {} parallel point_at <0, 0, 0>{} }}\n",
                            vector_text(distance * light.position), rgb, keywords);
     }
