@@ -105,6 +105,54 @@ TEST_CASE("a kernel file is a light", "[kernel_files]") {
     CHECK(place.image({"render", "lamp.toml"}) == place.image({"render", "point.toml"}));
 }
 
+TEST_CASE("what is beyond a kernel file's light blocks it unless the kernel says how far the light is",
+          "[kernel_files]") {
+    const Workspace place;
+    write_file(place.directory / "near/lamp.kernel",
+               std::string(k_lamp) +
+                   "\nKERNEL float lamp_distance(LampLight light, Receiver r) {\n"
+                   "    return length(light.position - r.position);\n}\n");
+    // On the other side of the light, behind the observer.
+    const auto scene = [](const std::string& light) {
+        return Workspace::scene("reflection = \"lambert\"", light) +
+               "[[object]]\ntype = \"cube\"\nposition = [3, 3, 4.4]\nsize = 1.1\nshading = \"flat\"\n"
+               "reflection = \"lambert\"\n";
+    };
+    write_file(place.directory / "point.toml", scene("point\"\nattenuation = \"none"));
+    write_file(place.directory / "lamp.toml", scene("lamp.kernel"));
+    write_file(place.directory / "near.toml", scene("near/lamp.kernel"));
+    const std::string lit = place.image({"render", "point.toml", "--shadows"});
+    CHECK(place.image({"render", "near.toml", "--shadows"}) == lit);
+    CHECK(place.image({"render", "lamp.toml", "--no-shadows"}) == lit);
+    CHECK(place.image({"render", "lamp.toml", "--shadows"}) != lit);
+}
+
+TEST_CASE("a kernel file's light with an extent has a penumbra", "[kernel_files]") {
+    const Workspace place;
+    const std::string punctual =
+        std::string(k_lamp) +
+        "\nKERNEL Punctual lamp_punctual(LampLight light) {\n"
+        "    return punctual_source(light.position, vec3(1.0f), 1.0f, 2, 0.0f);\n}\n";
+    write_file(place.directory / "lamp.kernel", punctual);
+    write_file(place.directory / "wide/lamp.kernel",
+               punctual +
+                   "\nKERNEL Extent lamp_extent(LampLight light) {\n"
+                   "    return Extent(vec3(0.8f, 0.0f, 0.0f), vec3(0.0f, 0.8f, 0.0f));\n}\n");
+    // A small box before the light, and a ball in whose pixels, not faces, light is evaluated.
+    const auto scene = [](const std::string& light) {
+        return k_start + image_table(40, 30) + models("phong", "lambert") + "[[light]]\ntype = \"" + light +
+               "\"\nposition = [2, 2, 3]\n[[object]]\ntype = \"sphere\"\n"
+               "[[object]]\ntype = \"cube\"\nposition = [1.4, 1.4, 2.1]\nsize = 0.3\n";
+    };
+    write_file(place.directory / "lamp.toml", scene("lamp.kernel"));
+    write_file(place.directory / "wide.toml", scene("wide/lamp.kernel"));
+    CHECK(place.image({"render", "wide.toml", "--no-shadows"}) ==
+          place.image({"render", "lamp.toml", "--no-shadows"}));
+    const std::string hard = place.image({"render", "lamp.toml", "--shadows"});
+    CHECK(place.image({"render", "wide.toml", "--shadows"}) != hard);
+    CHECK(place.image({"render", "wide.toml", "--shadows", "--set", "shadows.pattern=fixed"}) == hard);
+}
+
 TEST_CASE("commands that take a model's name take a kernel file", "[kernel_files]") {
     const Workspace place;
     const CommandResult described = place.candela({"describe", "half.kernel"});
