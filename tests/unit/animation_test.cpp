@@ -310,3 +310,56 @@ TEST_CASE("frames compiled in sequence equal frames compiled alone, and reuse wh
     }
     CHECK(kept == std::vector<bool>{false, true, false, false, false});
 }
+
+TEST_CASE("shadows of scenes built in sequence equal those of scenes built alone, whatever changes") {
+    candela::FrameBuilder builder(test_registry());
+    candela::Renderer renderer(candela::Renderer::Keep::visibility);
+    std::vector<bool> kept;
+    std::vector<candela::Setting> settings = {{"--shadows", "shadows.enabled", "true"}};
+    using Changes = std::vector<std::pair<std::string, std::string>>;
+    for (const auto& [path, value] : Changes{{"observer.position", "[0.0, 1.5, 4.0]"},
+                                             {"light.lamp.position", "[0.5, 3.0, 0.5]"},
+                                             {"object.box.casts_shadows", "false"},
+                                             {"object.box.casts_shadows", "true"},
+                                             {"object.ball.receives_shadows", "false"},
+                                             {"light.lamp.casts_shadows", "false"},
+                                             {"light.lamp.casts_shadows", "true"},
+                                             {"object.ball.receives_shadows", "true"},
+                                             {"shadows.enabled", "false"},
+                                             {"shadows.enabled", "true"},
+                                             {"object.box.reflection", "dielectric"},
+                                             {"object.box.transmits_light", "false"},
+                                             {"object.box.encloses", "true"},
+                                             {"object.box.rotation", "[0, 30, 0]"},
+                                             {"object.box.color", "[9, 200, 9]"},
+                                             {"shadows.pattern", "fixed"}}) {
+        settings.push_back({"--set", path, value});
+        candela::SceneRequest request = request_of("");
+        request.settings = settings;
+        candela::Diagnostics diagnostics;
+        auto frames = candela::SceneFrames::read(request, test_registry(), diagnostics);
+        INFO(path << " = " << value << diagnostics_text(diagnostics, false));
+        REQUIRE(frames);
+        const candela::SceneDraft draft = frames->draft(0, diagnostics);
+        const candela::RenderScene* const scene = builder.build(draft, diagnostics);
+        REQUIRE(scene != nullptr);
+        kept.push_back(builder.has_kept_triangles());
+        if (!kept.back()) renderer.forget();
+        const auto alone = candela::build(draft, test_registry(), diagnostics);
+        REQUIRE(alone);
+        CHECK(scene->occlusion.has_value() ==
+              (draft.scene.shadows.enabled && draft.scene.lights[0].casts_shadows));
+        candela::Film a(24, 16, candela::PixelType::real, candela::ColorEncoding::srgb);
+        candela::Film b(24, 16, candela::PixelType::real, candela::ColorEncoding::srgb);
+        renderer.render(*scene, a, {.threads = 1});
+        candela::render(*alone, b, {.threads = 1});
+        const auto reals_of = [](const candela::Film& film) {
+            const auto reals = film.view().reals;
+            return std::vector<float>(reals.begin(), reals.end());
+        };
+        CHECK(reals_of(a) == reals_of(b));
+    }
+    // From the second on, until the box encloses, turns, or has another colour.
+    CHECK(kept == std::vector<bool>{false, true, true, true, true, true, true, true, true, true, true, true,
+                                    false, false, false, true});
+}
