@@ -45,7 +45,7 @@ struct AimLoop {
 
     CANDELA_BATCH_LOOP static void run(Points points, ConstVec3Span to_light, const float* distance,
                                        const float* brightness, std::size_t count, Vec3Span origin,
-                                       float* length, std::uint32_t* flags) {
+                                       Vec3Span direction, float* length, std::uint32_t* flags) {
         const float always = points.from_all ? 1.0f : 0.0f;
         const vec3 middle(points.middle.x, points.middle.y, points.middle.z);
         CANDELA_VECTORIZE
@@ -59,14 +59,17 @@ struct AimLoop {
             const bool is_below = kernel::dot(n, l) < 0.0f;
             const vec3 to_middle = kernel::normalize(middle - p);
             const vec3 along = to_middle - n * kernel::dot(n, to_middle);
-            const vec3 from = p + (n * 2.0f - l) * (is_below ? -margin : margin);
-            kernel::store(origin, i, from + along * (points.inward * margin));
+            const vec3 shift =
+                (n * 2.0f - l) * (is_below ? -margin : margin) + along * (points.inward * margin);
+            kernel::store(origin, i, p + shift);
+            // From there to the light itself, so that the ray ends before a surface on which the light is.
+            kernel::store(direction, i, l - shift * (1.0f / distance[i]));
             const float to = distance[i] * 0.9999990f - 2.0f * margin;
             length[i] = to;
             const bool faces = kernel::max(kernel::dot(kernel::load(points.normal, i), l), always) > 0.0f;
             // A faulty plugin's direction must not reach Embree, and a point that is not there needs no ray.
             const bool is_sound = kernel::dot(l, l) < 4.0f && static_cast<std::uint32_t>(i) < points.count;
-            const bool is_lit = faces && is_sound && brightness[i] > 0.0f && to > 0.0f;
+            const bool is_lit = faces && is_sound && brightness[i] > 0.0f && to > 2.0f * margin;
             std::uint32_t flag = ShadowRays::k_traced;
             flag |= is_below ? ShadowRays::k_from_below : 0u;
             flag |= points.facing[i] < 0.0f ? ShadowRays::k_from_behind : 0u;
@@ -186,7 +189,8 @@ struct ScaleLoop {
 }  // namespace
 
 LightVisibility::LightVisibility() {
-    for (Vec3Arrays* const arrays : {&origin_, &direction_, &colored_, &mean_, &position_, &first_})
+    for (Vec3Arrays* const arrays :
+         {&origin_, &towards_, &direction_, &colored_, &mean_, &position_, &first_})
         arrays->resize(k_batch_size);
     for (AlignedVector<float>* const array :
          {&length_, &visible_, &offset_x_, &offset_y_, &distance_, &brightness_})
@@ -227,7 +231,7 @@ void LightVisibility::aim(const LightSample& light, const ConstVec3Span& positio
     if (light.brightness == nullptr) std::fill_n(visible_.begin(), count_, 1.0f);
     const float* const brightness = light.brightness != nullptr ? light.brightness : visible_.data();
     multiversion<AimLoop>(points, light.to_light, light.distance, brightness, count_, origin_.span(),
-                          length_.data(), flags_.data());
+                          towards_.span(), length_.data(), flags_.data());
     if (points_->has_triangle && !mesh_->is_faceted) lift_from_hollows(light.to_light, position);
 }
 
@@ -239,6 +243,7 @@ void LightVisibility::lift_from_hollows(const ConstVec3Span& to_light, const Con
             continue;
         flags_[i] &= ~ShadowRays::k_from_below;
         origin_.span().set(i, 2.0f * p - std::as_const(origin_).span()[i]);
+        towards_.span().set(i, 2.0f * l - std::as_const(towards_).span()[i]);
     }
 }
 
@@ -299,7 +304,7 @@ ConstVec3Span LightVisibility::trace(const LightSample& light, const ConstVec3Sp
     crossings_.clear();
     tree_->find_visible({.count = count_,
                          .origin = std::as_const(origin_).span(),
-                         .direction = light.to_light,
+                         .direction = std::as_const(towards_).span(),
                          .length = length_.data(),
                          .flags = flags_.data(),
                          .object = object_},
@@ -348,7 +353,7 @@ std::optional<Blocker> LightVisibility::find_blocker(const LightSample& light) {
         if (flags_[0] == 0) continue;
         const auto blocker = tree_->find_blocker({.count = 1,
                                                   .origin = std::as_const(origin_).span(),
-                                                  .direction = from.to_light,
+                                                  .direction = std::as_const(towards_).span(),
                                                   .length = length_.data(),
                                                   .flags = flags_.data(),
                                                   .object = object_},

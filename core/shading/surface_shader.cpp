@@ -116,13 +116,14 @@ struct PunctualLoop {
             const float square = kernel::dot(to_source, to_source);
             const float inverse = kernel::inversesqrt(kernel::max(square, 1.0e-36f));
             const vec3 l = square > 1.0e-36f ? to_source * inverse : kernel::load(normal, i);
-            const float r = kernel::max(square * inverse, 1.0e-4f);
+            const float away = square * inverse;
+            const float r = kernel::max(away, 1.0e-4f);
             const float cosine = -kernel::dot(l, axis);
             const float t = kernel::clamp((cosine - light.cos_outer) * light.cone_scale, 0.0f, 1.0f);
             const float smooth = t * t * (3.0f - 2.0f * t);
             const float cone = light.has_cone ? (light.is_smooth ? smooth : t) : 1.0f;
             kernel::store(to_light, i, l);
-            distance[i] = is_distant ? std::numeric_limits<float>::infinity() : r;
+            distance[i] = is_distant ? std::numeric_limits<float>::infinity() : away;
             attenuation[i] = cone / (light.constant + r * (light.linear + r * light.quadratic));
         }
     }

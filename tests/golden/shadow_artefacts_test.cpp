@@ -51,6 +51,17 @@ class Studio {
             for (std::size_t i = 0; i < lit.size(); ++i) count += shadowed[i] < lit[i] * (1 - 1e-5f) ? 1 : 0;
             return count;
         }
+        /// The number of pixels that are lit, and those at their left and right are in shadow, or the
+        /// reverse.
+        int islands() const {
+            const auto is_dark = [&](std::size_t i) { return shadowed[i] < 0.5f * lit[i]; };
+            int count = 0;
+            for (std::size_t i = 1; i + 1 < lit.size(); ++i) {
+                const bool are_all_lit = lit[i - 1] > 0 && lit[i] > 0 && lit[i + 1] > 0;
+                count += are_all_lit && is_dark(i) != is_dark(i - 1) && is_dark(i) != is_dark(i + 1) ? 1 : 0;
+            }
+            return count;
+        }
         /// The number of pixels that are lit with shadows.
         int left() const {
             return static_cast<int>(std::ranges::count_if(shadowed, [](float each) { return each > 0; }));
@@ -231,5 +242,100 @@ TEST_CASE("light does not leak through the walls of a hollow smooth mesh") {
             INFO(segments << " segments, light from " << text(to_light));
             CHECK(pair.left() == 0);
         }
+    }
+}
+
+TEST_CASE("a box's shadow begins where the box stands, on it or sunk into it") {
+    Studio studio;
+    for (const double unit : {1e-4, 1.0, 3e3}) {
+        for (const double sunk : {0.0, 0.01}) {
+            // A floor whose top is y = 0, a box from -1/2 to 1/2 on it, light from the left at 45 degrees.
+            const auto pair = studio.render(
+                view(static_cast<float>(unit) * Vec3{1.2f, 1.5f, 3},
+                     static_cast<float>(unit) * Vec3{0.7f, 0, 0}, 20 * unit, 200, 160) +
+                models("phong", "lambert") + directional(normalized(Vec3{-1, 1, 0})) +
+                fmt::format("[[object]]\ntype = \"cube\"\nposition = [0, {0}, 0]\nscale = [{1}, {2}, {1}]\n"
+                            "[[object]]\ntype = \"cube\"\nposition = [0, {3}, 0]\nscale = [{2}, {2}, {2}]\n",
+                            -0.5 * unit, 8 * unit, unit, (0.5 - sunk) * unit));
+            // What is left in the shadow's row of pixels are the box's own faces, which face the light or
+            // not.
+            INFO("one unit is " << unit << " m, sunk " << sunk);
+            CHECK(pair.darkened() > 1900);
+            CHECK(pair.islands() == 0);
+        }
+    }
+}
+
+TEST_CASE("a lampshade lets light out only through its openings") {
+    Studio studio;
+    // Open at both ends: a ring of radius 1/2 from y = 1 to 2, with the lamp in its middle.
+    std::string obj;
+    constexpr int k_segments = 64;
+    for (int i = 0; i < k_segments; ++i) {
+        const double a = 2 * std::numbers::pi * i / k_segments;
+        obj += fmt::format("v {0} 1 {1}\nv {0} 2 {1}\n", 0.5 * std::cos(a), 0.5 * std::sin(a));
+    }
+    for (int i = 0; i < k_segments; ++i) {
+        const int a = 2 * i + 1, b = 2 * ((i + 1) % k_segments) + 1;
+        obj += fmt::format("f {} {} {} {}\n", a, a + 1, b + 1, b);
+    }
+    studio.add_file("shade.obj", obj);
+    studio.add_file("floor.obj", "v -6 0 6\nv 6 0 6\nv 6 0 -6\nv -6 0 -6\nf 1 2 3 4\n");
+    const auto pair = studio.render(
+        fmt::format("{}[room]\nwidth = 20\nheight = 20\ndepth = 20\n[observer]\nposition = [0, 0.9, 0]\n"
+                    "look_at = [0, 0, 0]\nup = [0, 0, -1]\nprojection = \"orthographic\"\nheight = 6\n{}",
+                    k_shadows, image_table(120, 120)) +
+        models("phong", "lambert") + point({0, 1.5f, 0}) +
+        "[[object]]\ntype = \"mesh\"\nfile = \"floor.obj\"\n"
+        "[[object]]\ntype = \"mesh\"\nfile = \"shade.obj\"\n");
+    for (int y = 0; y < 120; ++y) {
+        for (int x = 0; x < 120; ++x) {
+            // The lower rim's shadow has three times its radius.
+            const double radius = std::hypot((x + 0.5) / 20 - 3, (y + 0.5) / 20 - 3);
+            if (std::abs(radius - 1.5) < 0.03) continue;
+            const std::size_t i = static_cast<std::size_t>(y) * 120 + static_cast<std::size_t>(x);
+            INFO(x << ", " << y);
+            CHECK(pair.shadowed[i] == (radius < 1.5 ? pair.lit[i] : 0));
+        }
+    }
+}
+
+TEST_CASE("a lamp on a surface, at its corner, or in its plane lights what is opposite") {
+    Studio studio;
+    studio.add_file("quad.obj", grid_obj(1));
+    for (const float unit : {1e-5f, 1.0f, 1e4f}) {
+        for (const Vec3 lamp :
+             {Vec3{0, 0, 1}, Vec3{0.3f, 0.2f, 1}, Vec3{1, 1, 1}, Vec3{-1, 0.25f, 1}, Vec3{2, 0, 1}}) {
+            // Two parallel squares, the lamp on the nearer one, which is behind the observer.
+            const std::string square = "[[object]]\ntype = \"mesh\"\nfile = \"quad.obj\"\n";
+            const auto pair = studio.render(
+                view(unit * Vec3{0, 0, 0.9f}, {}, 20 * double{unit}) + models("phong", "lambert") +
+                point(unit * lamp) + square + fmt::format("scale = {:.9g}\n", unit) + square +
+                fmt::format("scale = {0:.9g}\nposition = [0, 0, {0:.9g}]\n", unit));
+            INFO("one unit is " << unit << " m, lamp at " << text(lamp));
+            CHECK(pair.darkened() == 0);
+            CHECK(pair.bright() > 10000);
+        }
+    }
+}
+
+TEST_CASE("a decal on a floor, and boxes side by side, do not shadow one another") {
+    Studio studio;
+    studio.add_file("quad.obj", grid_obj(1));
+    for (const float unit : {1e-5f, 1.0f, 1e4f}) {
+        const auto at = [&](const char* type, Vec3 position, Vec3 scale) {
+            return fmt::format("[[object]]\n{}\nposition = {}\nscale = {}\n", type, vec(unit * position),
+                               vec(unit * scale));
+        };
+        const std::string quad = "type = \"mesh\"\nfile = \"quad.obj\"", cube = "type = \"cube\"";
+        // In the same plane, z = 0, all of them.
+        const auto pair = studio.render(
+            view(unit * Vec3{0, 0, 4}, {}, 20 * double{unit}) + models("phong", "lambert") +
+            directional(normalized(Vec3{1, 0.3f, 0.2f})) + at(quad.c_str(), {}, {1.2f, 1.2f, 1}) +
+            at(quad.c_str(), {0.2f, 0, 0}, {0.3f, 0.3f, 1}) + at(cube.c_str(), {-0.5f, 0, -0.5f}, {1, 1, 1}) +
+            at(cube.c_str(), {0.5f, 0, -0.5f}, {1, 1, 1}));
+        INFO("one unit is " << unit << " m");
+        CHECK(pair.darkened() == 0);
+        CHECK(pair.bright() > 1000);
     }
 }

@@ -79,7 +79,9 @@ class LightVisibility {
     ConstVec3Span normal_;
     std::size_t count_ = 0;  // in whole vectors
 
-    Vec3Arrays origin_, direction_, colored_, mean_, position_, first_;
+    Vec3Arrays origin_, towards_;      // of the rays
+    Vec3Arrays position_, direction_;  // of a pixel's sample; directions of ambient light
+    Vec3Arrays colored_, mean_, first_;
     AlignedVector<float> length_, visible_, offset_x_, offset_y_, distance_, brightness_;
     AlignedVector<std::uint32_t> flags_;
     std::vector<Crossing> crossings_;
