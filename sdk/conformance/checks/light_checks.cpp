@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "batch.h"
 #include "incident.h"
@@ -258,5 +261,53 @@ TEST_CASE("data: the light's description of itself as data matches what it sends
         if (punctual == nullptr) continue;
         for (int sample = 0; sample < std::min(light->sample_count(), 8); ++sample)
             compare_with_data(*light, sample, punctual->as_punctual(sample), in, values);
+    }
+}
+
+TEST_CASE("distance: asked for, it is positive, and nothing else changes", "[light]") {
+    constexpr float k_untouched = -7;
+    constexpr std::size_t k_behind = 16;
+    const Arrays in = inputs_for(100, 43);
+    const candela::ReceiverBatch receivers{
+        .count = in.count(), .position = in.vec3(inputs::k_position), .normal = in.vec3(inputs::k_normal)};
+    for (const Values& values : many_values()) {
+        const auto light = make<candela::Light>(values);
+        for (int sample = 0; sample < std::min(light->sample_count(), 8); ++sample) {
+            Arrays without(9, in.count()), with(9, in.count());
+            std::vector<float> distance(in.count() + k_behind, k_untouched);
+            std::fill_n(distance.begin(), in.count(), std::numeric_limits<float>::infinity());
+            const auto illuminate = [&](Arrays& out, float* to) {
+                light->illuminate(sample, receivers,
+                                  {.to_light = out.vec3(0),
+                                   .diffuse = out.vec3(3),
+                                   .specular = out.vec3(6),
+                                   .distance = to});
+            };
+            illuminate(without, nullptr);
+            illuminate(with, distance.data());
+            for (std::size_t i = 0; i < in.count(); ++i) {
+                if (!(distance[i] > 0))
+                    FAIL("sample " << sample << " is " << distance[i] << " m away, for "
+                                   << text_of_input(in, i) << ", with " << values.text);
+                for (std::size_t a = 0; a < with.arrays(); ++a) {
+                    if (with[a][i] != without[a][i])
+                        FAIL("sample " << sample << " sends " << with[a][i] << " instead of " << without[a][i]
+                                       << " if it is asked for its distance, for " << text_of_input(in, i)
+                                       << ", with " << values.text);
+                }
+            }
+            if (std::any_of(distance.end() - k_behind, distance.end(),
+                            [](float each) { return each != k_untouched; }))
+                FAIL("sample " << sample << " writes distances after a batch of " << in.count() << " points");
+        }
+        const auto* const punctual = candela::extension_of<candela::PunctualSource>(*light);
+        for (int sample = 0; punctual != nullptr && sample < std::min(light->sample_count(), 8); ++sample) {
+            const candela::PunctualLight data = punctual->as_punctual(sample);
+            for (const Vec3 edge : {data.extent_u, data.extent_v}) {
+                if (!std::isfinite(dot(edge, edge)))
+                    FAIL("as data, the extent of sample " << sample << " is not finite, with "
+                                                          << values.text);
+            }
+        }
     }
 }
