@@ -1,6 +1,5 @@
 module;
 
-#include "candela/kernel/kernel.h"
 #include "candela/kernel/simd_dispatch.h"
 #include "internal/embree_headers.h"
 
@@ -42,17 +41,12 @@ constexpr float k_near_edge = 0x1p-12f;
 /// other, relative to their distance.
 constexpr float k_same_edge = 0x1p-10f;
 
-/// With more objects, it is cheaper to trace all rays of a convex one.
-constexpr std::size_t k_most_boxes = 32;
-
 /// Embree passes it to the filter with each hit of the surface.
 struct Surface {
     std::uint32_t object = 0;
     bool is_solid = false;
     bool is_transparent = false;
     bool has_inside = false;
-    bool is_convex = false;
-    std::optional<Box> bounds{};  // nothing if it casts no shadow
 };
 
 /// A hit of a transparent object: rays meet its surface in pairs.
@@ -150,10 +144,16 @@ void let_pass(const RTCFilterFunctionNArguments* hits) {
     }
 }
 
+/// One over a packet's directions.
+struct Inverse {
+    alignas(64) std::array<float, k_size> x, y, z;
+};
+
 /// Sixteen rays for Embree.
 struct PacketLoop {
     CANDELA_BATCH_LOOP static void run(ConstVec3Span origin, ConstVec3Span direction, const float* length,
-                                       const std::uint32_t* flags, RTCRay16* rays, int* valid) {
+                                       const std::uint32_t* flags, RTCRay16* rays, Inverse* inverse,
+                                       int* valid) {
         CANDELA_VECTORIZE_SIXTEEN
         for (std::size_t i = 0; i < k_size; ++i) {
             rays->org_x[i] = origin.x[i];
@@ -169,56 +169,68 @@ struct PacketLoop {
             rays->flags[i] = 0;
             rays->id[i] = flags[i] | static_cast<std::uint32_t>(i);
             valid[i] = flags[i] != 0 ? -1 : 0;
+            // Not of zero, so that no product with it is NaN.
+            inverse->x[i] = 1 / (direction.x[i] == 0 ? 1e-30f : direction.x[i]);
+            inverse->y[i] = 1 / (direction.y[i] == 0 ? 1e-30f : direction.y[i]);
+            inverse->z[i] = 1 / (direction.z[i] == 0 ? 1e-30f : direction.z[i]);
         }
     }
 };
 
-/// Turns off the rays that meet no box: those of a convex object, which does not block its own light.
-/// `boxes`: of the others.
-struct CullLoop {
-    CANDELA_BATCH_LOOP static void run(const RTCRay16* rays, const Box* boxes, std::size_t count,
-                                       int* valid) {
-        alignas(64) float inverse[3][k_size];
-        alignas(64) int reaches[k_size] = {};
-        const float* const direction[3] = {rays->dir_x, rays->dir_y, rays->dir_z};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            CANDELA_VECTORIZE_SIXTEEN
-            for (std::size_t i = 0; i < k_size; ++i) {
-                const float d = direction[axis][i];
-                const float small = d < 0.0f ? -1.0e-30f : 1.0e-30f;
-                inverse[axis][i] = 1.0f / (kernel::abs(d) < 1.0e-30f ? small : d);
-            }
-        }
-        for (const Box *box = boxes, *const end = boxes + count; box != end; ++box) {
-            const Vec3 low = box->low, high = box->high;
-            CANDELA_VECTORIZE_SIXTEEN
-            for (std::size_t i = 0; i < k_size; ++i) {
-                const float x0 = (low.x - rays->org_x[i]) * inverse[0][i];
-                const float x1 = (high.x - rays->org_x[i]) * inverse[0][i];
-                const float y0 = (low.y - rays->org_y[i]) * inverse[1][i];
-                const float y1 = (high.y - rays->org_y[i]) * inverse[1][i];
-                const float z0 = (low.z - rays->org_z[i]) * inverse[2][i];
-                const float z1 = (high.z - rays->org_z[i]) * inverse[2][i];
-                const float near = kernel::max(kernel::max(kernel::min(x0, x1), kernel::min(y0, y1)),
-                                               kernel::max(kernel::min(z0, z1), 0.0f));
-                const float far = kernel::min(kernel::min(kernel::max(x0, x1), kernel::max(y0, y1)),
-                                              kernel::min(kernel::max(z0, z1), rays->tfar[i]));
-                // Rounding must not lose a ray that grazes the box.
-                reaches[i] |= near <= far * 1.00001f ? -1 : 0;
-            }
-        }
-        CANDELA_VECTORIZE_SIXTEEN
-        for (std::size_t i = 0; i < k_size; ++i) valid[i] &= reaches[i];
-    }
+/// An object's box, and whether its own rays cannot meet it: it is solid, and convex.
+struct Bounds {
+    Box box;
+    std::uint32_t object = 0;
+    bool is_convex = false;
 };
 
-/// The box with a margin, so that it contains all that a ray may hit in spite of rounding.
-Box widened(Box box) {
-    constexpr float k_margin = 16 * OcclusionTree::k_relative_margin;
-    const auto wide = [](float low, float high) { return k_margin * (std::abs(low) + std::abs(high)); };
-    const Vec3 by{wide(box.low.x, box.high.x), wide(box.low.y, box.high.y), wide(box.low.z, box.high.z)};
-    return {box.low - by, box.high + by};
+/// Enlarged by more than rounding may move a ray or a triangle, so that Embree finds no hit outside.
+Box enlarged(const Box& box) {
+    const auto magnitude = [](Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
+    const float by = 0x1p-16f * std::max(magnitude(box.low), magnitude(box.high));
+    return {box.low - Vec3{by, by, by}, box.high + Vec3{by, by, by}};
 }
+
+/// Whether no vertex is above any triangle, except for rounding. Only for shapes that say so, and small
+/// meshes: each vertex is compared with each triangle.
+bool is_convex(const Mesh& mesh) {
+    constexpr std::size_t k_small = 64;
+    if (mesh.is_convex) return true;
+    if (mesh.triangle_count() > k_small) return false;
+    const float tolerance = 0x1p-21f * length(mesh.bounds.size());
+    for (std::size_t t = 0; t < mesh.triangle_count(); ++t) {
+        const Vec3 normal = mesh.face_normal.span()[t], corner = mesh.vertices[mesh.indices[3 * t]].position;
+        for (const MeshVertex& vertex : mesh.vertices) {
+            if (dot(normal, vertex.position - corner) > tolerance) return false;
+        }
+    }
+    return true;
+}
+
+/// Whether any ray of a packet meets a box.
+struct BoxLoop {
+    CANDELA_BATCH_LOOP static void run(const RTCRay16* rays, const Inverse* inverse, const int* valid,
+                                       Box box, int* any) {
+        int found = 0;
+        CANDELA_VECTORIZE_SIXTEEN
+        for (std::size_t i = 0; i < k_size; ++i) {
+            const float x = inverse->x[i], y = inverse->y[i], z = inverse->z[i];
+            const float ax = (box.low.x - rays->org_x[i]) * x, bx = (box.high.x - rays->org_x[i]) * x;
+            const float ay = (box.low.y - rays->org_y[i]) * y, by = (box.high.y - rays->org_y[i]) * y;
+            const float az = (box.low.z - rays->org_z[i]) * z, bz = (box.high.z - rays->org_z[i]) * z;
+            const float x0 = ax < bx ? ax : bx, x1 = ax < bx ? bx : ax;
+            const float y0 = ay < by ? ay : by, y1 = ay < by ? by : ay;
+            const float z0 = az < bz ? az : bz, z1 = az < bz ? bz : az;
+            float begin = x0 > y0 ? x0 : y0, end = x1 < y1 ? x1 : y1;
+            begin = begin > z0 ? begin : z0;
+            end = end < z1 ? end : z1;
+            begin = begin > 0 ? begin : 0;
+            end = end < rays->tfar[i] ? end : rays->tfar[i];
+            found |= begin <= end ? valid[i] : 0;
+        }
+        *any = found;
+    }
+};
 
 /// The longest edge of the mesh's triangles, along any axis.
 float largest_triangle(const Mesh& mesh) {
@@ -239,7 +251,8 @@ struct OcclusionTree::Tree {
     const Embree& embree = Embree::instance();
     RTCScene scene = embree.new_scene(embree.device);
     std::vector<Surface> surfaces;
-    float largest = 0;  // extent of a triangle that blocks light on both sides
+    std::vector<Bounds> bounds;  // of the objects; empty if there are too many to look at each
+    float largest = 0;           // extent of a triangle that blocks light on both sides
     bool has_transparent = false;
 
     Tree() = default;
@@ -249,18 +262,9 @@ struct OcclusionTree::Tree {
 
     void add(const Mesh& mesh, Surface& surface) const;
 
-    /// If the object is convex, the boxes of all others, and how many there are; unless there are too many.
-    std::optional<std::size_t> boxes_around_convex(std::uint32_t object,
-                                                   std::array<Box, k_most_boxes>& boxes) const {
-        if (object >= surfaces.size() || !surfaces[object].is_convex) return std::nullopt;
-        std::size_t count = 0;
-        for (const Surface& surface : surfaces) {
-            if (surface.object == object || !surface.bounds) continue;
-            if (count == k_most_boxes) return std::nullopt;
-            boxes[count++] = *surface.bounds;
-        }
-        return count;
-    }
+    /// Whether rays that start on `object` come near any object that may block them.
+    bool meets_any(const RTCRay16& rays, const Inverse& inverse, const std::array<int, k_size>& valid,
+                   std::uint32_t object) const;
 
     /// Whether a ray is blocked if it is traced on its own. Adds its hits of transparent objects.
     bool is_blocked(const ShadowRays& rays, std::size_t ray, std::vector<TransparentHit>& hits) const;
@@ -294,13 +298,16 @@ OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::m
         t.surfaces[i] = {.object = static_cast<std::uint32_t>(i),
                          .is_solid = occluder.is_solid,
                          .is_transparent = occluder.is_transparent,
-                         .has_inside = occluder.mesh->open_edges == 0,
-                         .is_convex = occluder.is_solid && occluder.mesh->is_convex,
-                         .bounds = widened(occluder.mesh->bounds)};
+                         .has_inside = occluder.mesh->open_edges == 0};
         t.has_transparent = t.has_transparent || occluder.is_transparent;
         if (!occluder.is_solid) t.largest = std::max(t.largest, largest_triangle(*occluder.mesh));
         t.add(*occluder.mesh, t.surfaces[i]);
+        t.bounds.push_back({enlarged(occluder.mesh->bounds), t.surfaces[i].object,
+                            occluder.is_solid && is_convex(*occluder.mesh)});
     }
+    // A packet takes Embree as long as some sixteen boxes.
+    constexpr std::size_t k_few = 16;
+    if (t.bounds.size() > k_few) t.bounds.clear();
     // Robust, so that no ray slips between triangles, and results do not depend on the shape of the tree.
     constexpr unsigned k_flags = unsigned{RTC_SCENE_FLAG_ROBUST} | unsigned{Embree::k_filters_by_call};
     // NOLINTNEXTLINE(clang-analyzer-optin.core.EnumCastOutOfRange): they are bits
@@ -391,6 +398,17 @@ bool OcclusionTree::Tree::is_blocked(const ShadowRays& rays, std::size_t ray,
     return traced.tfar[0] < 0;
 }
 
+bool OcclusionTree::Tree::meets_any(const RTCRay16& rays, const Inverse& inverse,
+                                    const std::array<int, k_size>& valid, std::uint32_t object) const {
+    if (bounds.empty()) return true;
+    return std::ranges::any_of(bounds, [&](const Bounds& each) {
+        if (each.is_convex && each.object == object) return false;
+        int any = 0;
+        multiversion<BoxLoop>(&rays, &inverse, valid.data(), each.box, &any);
+        return any != 0;
+    });
+}
+
 void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
                                  std::vector<Crossing>& crossings) const {
     const Tree& t = *tree_;
@@ -398,17 +416,16 @@ void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
     PacketContext packet;
     packet.object = rays.object;
     packet.hits = &hits;
-    std::array<Box, k_most_boxes> others;
-    const std::optional<std::size_t> other_count = t.boxes_around_convex(rays.object, others);
     for (std::size_t first = 0; first < rays.count; first += k_size) {
         const std::uint32_t* const flags = rays.flags + first;
         float* const to = visible + first;
         alignas(64) std::array<int, k_size> valid;
         RTCRay16 traced;
+        Inverse inverse;
         multiversion<PacketLoop>(rays.origin.from(first), rays.direction.from(first), rays.length + first,
-                                 flags, &traced, valid.data());
-        if (other_count) multiversion<CullLoop>(&traced, others.data(), *other_count, valid.data());
-        if (std::ranges::all_of(valid, [](int each) { return each == 0; })) {
+                                 flags, &traced, &inverse, valid.data());
+        if (std::ranges::all_of(valid, [](int each) { return each == 0; }) ||
+            !t.meets_any(traced, inverse, valid, rays.object)) {
             std::fill_n(to, k_size, 1.0f);
             continue;
         }

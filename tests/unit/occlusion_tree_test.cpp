@@ -329,6 +329,7 @@ TEST_CASE("the blocker is the nearest triangle that blocks, not the nearest that
 
 TEST_CASE("triangles without area block nothing and do not disturb those that have one") {
     candela::Mesh mesh;
+    mesh.bounds = {{-3, -3, -3}, {3, 3, 3}};
     Random random(22);
     constexpr std::size_t k_count = 3000;
     mesh.position.resize(3 * k_count);
@@ -365,4 +366,32 @@ TEST_CASE("a tree of nothing blocks nothing") {
     CHECK(visible(OcclusionTree(std::vector<Occluder>{}), {{{0, 0, 0}, {1, 0, 0}}})[0] == 1);
     CHECK(visible(OcclusionTree(std::vector<Occluder>{{}, {.mesh = &empty}}), {{{0, 0, 0}, {1, 0, 0}}})[0] ==
           1);
+}
+
+TEST_CASE("few objects, whose boxes are looked at first, block the same light as many") {
+    const candela::Mesh box = shape("cube", {{"size", 1.0}}, {.rotation = {20, 30, 40}}),
+                        ring = shape("torus", {}, {.position = {1, 0, 0}});
+    std::vector<Occluder> few{{.mesh = &box, .is_solid = true}, {.mesh = &ring}};
+    std::vector<Occluder> many = few;
+    const candela::Mesh away = shape("cube", {}, {.position = {0, 1000, 0}});
+    many.resize(100, {.mesh = &away, .is_solid = true});
+    const OcclusionTree tree(few), larger(many);
+    for (const std::uint32_t object : {0u, 1u, k_nowhere}) {
+        std::vector<Ray> rays;
+        Random random(23);
+        const candela::Mesh& from = object == 1 ? ring : box;
+        while (rays.size() < 20000) {
+            const auto t =
+                static_cast<std::size_t>(random.number(0, static_cast<double>(from.triangle_count()) - 0.5));
+            const Vec3 n = from.face_normal.span()[t];
+            Vec3 p{};
+            for (std::size_t k = 0; k < 3; ++k)
+                p = p + (1 / 3.0f) * from.vertices[from.indices[3 * t + k]].position;
+            const Vec3 direction = rays.size() % 5 == 0 ? Vec3{0, 1, 0} : random.direction();
+            if (object == k_nowhere || dot(n, direction) > 0)
+                rays.push_back({object == k_nowhere ? random.point(2) : p + 1e-5f * n, direction,
+                                static_cast<float>(random.number(0.5, 5))});
+        }
+        CHECK(visible(tree, rays, object) == visible(larger, rays, object));
+    }
 }
