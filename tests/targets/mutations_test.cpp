@@ -220,8 +220,8 @@ constexpr std::array k_shadow_mutations = {
     std::pair{"ambient occlusion reaches too far", Edit{"{8, 1.5f}", "{8, 3.0f}"}},
     std::pair{"rays of ambient occlusion are not turned", Edit{"0.61803399f * k", "0.0f * k"}},
 };
-#endif
 static_assert(k_shadow_mutations.size() == 12);
+#endif
 
 /// Replaces all occurrences. None is an error of this test, because the fault would be missing.
 std::string edited(std::string text, const Edit& edit) {
