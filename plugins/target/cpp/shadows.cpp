@@ -81,13 +81,16 @@ Values shadow_texts(const ExportedScene& scene) {
             {"PIXEL_PARAMETER", if_there(", const ShadowTree& tree, Pixel pixel")},
             {"PIXEL_ARGUMENT", if_there(", tree, pixel")},
             {"NO_PIXEL", if_there(", tree, {}")},
+            {"AT_PARAMETER", if_there(", const ShadowTree& tree, Pixel pixel, int shadow_triangle")},
+            {"AT_TRIANGLE", if_there(", tree, pixel, triangle")},
+            {"AT_VERTEX", if_there(", tree, {}, -1")},
             {"THIS_PIXEL",
              if_there(", tree, {static_cast<std::uint32_t>(i % k_width), static_cast<std::uint32_t>(i / "
                       "k_width)}")},
             {"PLACE_PARAMETER", if_there(", const ShadowPlace& at")},
             {"PLACE",
              if_there(", {tree, o, place, s.normal, (is_back ? -1.0f : 1.0f) * point.face_normal, is_back, "
-                      "pixel}")}};
+                      "pixel, shadow_triangle}")}};
 }
 
 }  // namespace candela::cpp_target

@@ -10,6 +10,10 @@ flat in vec3 at_corner;
 // The place where the line of sight meets the triangle's plane. Interpolation may miss the plane by more than rays keep away from
 // surfaces, and edges of shadows show where it misses the line.
 vec3 place_on_triangle() {
+    place_per_x = dFdx(at_place);
+    place_per_y = dFdy(at_place);
+    normal_per_x = dFdx(at_vertex_normal);
+    normal_per_y = dFdy(at_vertex_normal);
     seen_pixel = uvec2(int(gl_FragCoord.x), picture_height - 1 - int(gl_FragCoord.y));
     vec3 line = line_of_sight + gl_FragCoord.x * pixel_right + gl_FragCoord.y * pixel_up;
     vec3 from = is_orthographic ? eye + line : eye;

@@ -14,6 +14,11 @@ uniform bool is_shadowed;  // whether light is blocked on this object
 uvec2 seen_pixel = uvec2(0u);  // from the top left of the picture; (0, 0) at vertices and faces
 vec3 seen_side;                // the triangle's normal on the visible side; at a vertex the vertex's
 float seen_facing;             // -1 where an open surface is seen from behind
+// The place and the vertex normals, interpolated, change by this much from pixel to pixel; by nothing at vertices and faces.
+vec3 place_per_x = vec3(0.0);
+vec3 place_per_y = vec3(0.0);
+vec3 normal_per_x = vec3(0.0);
+vec3 normal_per_y = vec3(0.0);
 
 const float k_infinitely_far = 3.0e38;
 
@@ -77,6 +82,14 @@ bool ray_is_free(vec3 from, vec3 direction, float reach, bool is_below) {
     return true;
 }
 
+// Whether the normal turns away from a light as one moves towards it: the surface is hollow there, rises towards the light and
+// blocks it, even if the triangle on which the ray would start below does not.
+bool is_hollow(vec3 to_light) {
+    float turn = dot(to_light, cross(place_per_y, seen_side)) * dot(normal_per_x, to_light)
+        + dot(to_light, cross(seen_side, place_per_x)) * dot(normal_per_y, to_light);
+    return seen_facing * turn * dot(seen_side, cross(place_per_x, place_per_y)) < 0.0;
+}
+
 bool lights_below_horizon();
 
 // The part of the light from a direction that reaches a point: 1, or 0 if an object blocks it.
@@ -86,7 +99,7 @@ float visible_part(Receiver r, vec3 to_light, float distance) {
     float margin = max(least_margin, 9.5367432e-7 * max(max(p.x, p.y), p.z));
     float reach = 0.999999 * distance - 2.0 * margin;
     if (reach <= 0.0) return 1.0;
-    bool is_below = dot(seen_side, to_light) < 0.0;
+    bool is_below = dot(seen_side, to_light) < 0.0 && !(dot(r.normal, to_light) > 0.0 && is_hollow(to_light));
     return ray_is_free(r.position + (is_below ? -margin : margin) * seen_side, to_light, reach, is_below) ? 1.0 : 0.0;
 }
 

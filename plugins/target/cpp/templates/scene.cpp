@@ -208,7 +208,7 @@ vec3 lights_at(const Object& o, const Surface& s, const Receiver& r@PLACE_PARAME
 }
 
 // The intensity that a place of an object sends to the observer.
-vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@TINT_PARAMETER@, bool is_back@PIXEL_PARAMETER@) {
+vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@TINT_PARAMETER@, bool is_back@AT_PARAMETER@) {
     Surface s;
     s.normal = (is_back ? -1.0f : 1.0f) * shading_normal(o, point@TRIANGLE_ARGUMENT@);
     s.to_observer = k_is_perspective ? normalize(k_eye - place) : -k_forward;
@@ -239,7 +239,7 @@ vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back@PIXEL_
     p.uv = blend(m.uv, m, triangle, b);
     p.dpdu = blend(m.dpdu, m, triangle, b);
     p.dpdv = blend(m.dpdv, m, triangle, b);
-    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@TINT_WITHIN@, is_back@PIXEL_ARGUMENT@);
+    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@TINT_WITHIN@, is_back@AT_TRIANGLE@);
 }
 
 vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back@TREE_PARAMETER@) {
@@ -250,7 +250,7 @@ vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back@TREE_PARAM
     p.uv = o.mesh.uv.empty() ? vec2(0.0f) : o.mesh.uv[v];
     p.dpdu = at(o.mesh.dpdu);
     p.dpdv = at(o.mesh.dpdv);
-    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@TINT_AT_VERTEX@, is_back@NO_PIXEL@);
+    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@TINT_AT_VERTEX@, is_back@AT_VERTEX@);
 }
 
 vec3 intensity_seen(const Object& o, const Seen& seen@PIXEL_PARAMETER@) {

@@ -140,14 +140,31 @@ struct ShadowPlace {
     vec3 position, normal, face_normal;  // the shading normal; that of the triangle, both on the visible side
     bool is_back;
     Pixel pixel;
+    int triangle;  // -1 at a vertex
 };
+
+// Whether the normal turns away from a light as one moves towards it across the triangle: the surface that the triangle
+// stands for is hollow there, rises towards the light, and blocks it.
+bool is_hollow(const ShadowPlace& at, vec3 to_light) {
+    if (at.triangle < 0 || dot(at.normal, to_light) <= 0) return false;
+    const Object& o = at.object;
+    const auto t = static_cast<std::size_t>(at.triangle);
+    const vec3 aside = cross(to_light, o.face_normal[t]);
+    const auto corner = [&](std::size_t k) { return static_cast<std::size_t>(o.mesh.corners[3 * t + k % 3]); };
+    float turn = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const vec3 opposite = o.mesh.position[corner(k + 2)] - o.mesh.position[corner(k + 1)];
+        turn += dot(opposite, aside) * dot(o.vertex_normal[corner(k)], to_light);
+    }
+    return at.is_back ? turn > 0 : turn < 0;
+}
 
 // The fraction of the light from a direction that reaches a place: 0 or 1.
 float unblocked(const ShadowPlace& at, vec3 to_light, float distance) {
     const bool reflects = @REFLECTS@;
     if (!at.object.receives_shadows || !reflects) return 1.0f;
     const float margin = at.tree.margin_at(at.position);
-    const bool is_below = dot(at.face_normal, to_light) < 0;
+    const bool is_below = dot(at.face_normal, to_light) < 0 && !is_hollow(at, to_light);
     const float length = distance * 0.9999990f - 2.0f * margin;
     if (!(length > 0)) return 1.0f;
     const vec3 origin = at.position + (is_below ? -margin : margin) * at.face_normal;
