@@ -24,7 +24,7 @@ struct Blocker {  // a triangle that casts a shadow
 
 Double3 double3(vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
 
-// A ray meets a box if there is a part of it that is between the two sides on all three axes. (A ray that runs within a side
+// A ray meets a box if a part of the ray is between the box's two sides along all three axes. (A ray that runs within a side
 // has 0 / 0 there, which min and max ignore.)
 bool meets(const ShadowRay& ray, const Box& box) {
     double enters = 0, leaves = ray.length;
@@ -44,16 +44,16 @@ bool blocks(const Blocker& blocker, const ShadowRay& ray) {
     const Double3 d = ray.direction, size = {std::fabs(d[0]), std::fabs(d[1]), std::fabs(d[2])};
     const std::size_t z = static_cast<std::size_t>(std::max_element(size.begin(), size.end()) - size.begin());
     const std::size_t x = (z + 1) % 3, y = (z + 2) % 3;
-    std::array<Double3, 3> c;
+    std::array<Double3, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
-        const Double3& p = blocker.corners[k];
-        const double along = (p[z] - ray.origin[z]) / d[z];
-        c[k] = {p[x] - ray.origin[x] - along * d[x], p[y] - ray.origin[y] - along * d[y], along};
+        const Double3& corner = blocker.corners[k];
+        const double along = (corner[z] - ray.origin[z]) / d[z];
+        p[k] = {corner[x] - ray.origin[x] - along * d[x], corner[y] - ray.origin[y] - along * d[y], along};
     }
-    const double a = c[1][0] * c[2][1] - c[1][1] * c[2][0], b = c[2][0] * c[0][1] - c[2][1] * c[0][0];
-    const double g = c[0][0] * c[1][1] - c[0][1] * c[1][0], area = a + b + g;
-    if ((a < 0 || b < 0 || g < 0) && (a > 0 || b > 0 || g > 0)) return false;
-    const double distance = (a * c[0][2] + b * c[1][2] + g * c[2][2]) / area;
+    const double a = p[1][0] * p[2][1] - p[1][1] * p[2][0], b = p[2][0] * p[0][1] - p[2][1] * p[0][0];
+    const double c = p[0][0] * p[1][1] - p[0][1] * p[1][0], area = a + b + c;
+    if ((a < 0 || b < 0 || c < 0) && (a > 0 || b > 0 || c > 0)) return false;
+    const double distance = (a * p[0][2] + b * p[1][2] + c * p[2][2]) / area;
     if (!(distance > 0 && distance <= ray.length)) return false;  // also if the area is 0
 
     // The ray enters the object if it meets the triangle's outer side, whose corners run counter-clockwise.
