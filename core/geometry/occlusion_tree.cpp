@@ -118,8 +118,9 @@ void let_pass(const RTCFilterFunctionNArguments* hits) {
     if (hits->N == k_size && surface.is_solid && !surface.is_transparent && !packet.is_one_ray) {
         alignas(64) std::array<int, k_size> near_edge;
         int any = 0;
+        int* const to = &any;
         multiversion<SolidLoop>(static_cast<const RTCRayN*>(hits->ray),
-                                static_cast<const RTCHitN*>(hits->hit), hits->valid, near_edge.data(), &any);
+                                static_cast<const RTCHitN*>(hits->hit), hits->valid, near_edge.data(), to);
         for (unsigned i = 0; any != 0 && i < k_size; ++i) {
             if (near_edge[i] != 0) packet.near_edges |= 1u << (RTCRayN_id(hits->ray, k_size, i) % k_size);
         }
@@ -207,26 +208,31 @@ bool is_convex(const Mesh& mesh) {
     return true;
 }
 
-/// Whether any ray of a packet meets a box.
-struct BoxLoop {
+/// Whether any ray of a packet, from the surface of `object`, meets a box.
+struct BoxesLoop {
     CANDELA_BATCH_LOOP static void run(const RTCRay16* rays, const Inverse* inverse, const int* valid,
-                                       Box box, int* any) {
+                                       const Bounds* bounds, std::size_t count, std::uint32_t object,
+                                       int* any) {
         int found = 0;
-        CANDELA_VECTORIZE_SIXTEEN
-        for (std::size_t i = 0; i < k_size; ++i) {
-            const float x = inverse->x[i], y = inverse->y[i], z = inverse->z[i];
-            const float ax = (box.low.x - rays->org_x[i]) * x, bx = (box.high.x - rays->org_x[i]) * x;
-            const float ay = (box.low.y - rays->org_y[i]) * y, by = (box.high.y - rays->org_y[i]) * y;
-            const float az = (box.low.z - rays->org_z[i]) * z, bz = (box.high.z - rays->org_z[i]) * z;
-            const float x0 = ax < bx ? ax : bx, x1 = ax < bx ? bx : ax;
-            const float y0 = ay < by ? ay : by, y1 = ay < by ? by : ay;
-            const float z0 = az < bz ? az : bz, z1 = az < bz ? bz : az;
-            float begin = x0 > y0 ? x0 : y0, end = x1 < y1 ? x1 : y1;
-            begin = begin > z0 ? begin : z0;
-            end = end < z1 ? end : z1;
-            begin = begin > 0 ? begin : 0;
-            end = end < rays->tfar[i] ? end : rays->tfar[i];
-            found |= begin <= end ? valid[i] : 0;
+        for (const Bounds* each = bounds; each != bounds + count && found == 0; ++each) {
+            if (each->is_convex && each->object == object) continue;
+            const Box box = each->box;
+            CANDELA_VECTORIZE_SIXTEEN
+            for (std::size_t i = 0; i < k_size; ++i) {
+                const float x = inverse->x[i], y = inverse->y[i], z = inverse->z[i];
+                const float ax = (box.low.x - rays->org_x[i]) * x, bx = (box.high.x - rays->org_x[i]) * x;
+                const float ay = (box.low.y - rays->org_y[i]) * y, by = (box.high.y - rays->org_y[i]) * y;
+                const float az = (box.low.z - rays->org_z[i]) * z, bz = (box.high.z - rays->org_z[i]) * z;
+                const float x0 = ax < bx ? ax : bx, x1 = ax < bx ? bx : ax;
+                const float y0 = ay < by ? ay : by, y1 = ay < by ? by : ay;
+                const float z0 = az < bz ? az : bz, z1 = az < bz ? bz : az;
+                float begin = x0 > y0 ? x0 : y0, end = x1 < y1 ? x1 : y1;
+                begin = begin > z0 ? begin : z0;
+                end = end < z1 ? end : z1;
+                begin = begin > 0 ? begin : 0;
+                end = end < rays->tfar[i] ? end : rays->tfar[i];
+                found |= begin <= end ? valid[i] : 0;
+            }
         }
         *any = found;
     }
@@ -401,12 +407,10 @@ bool OcclusionTree::Tree::is_blocked(const ShadowRays& rays, std::size_t ray,
 bool OcclusionTree::Tree::meets_any(const RTCRay16& rays, const Inverse& inverse,
                                     const std::array<int, k_size>& valid, std::uint32_t object) const {
     if (bounds.empty()) return true;
-    return std::ranges::any_of(bounds, [&](const Bounds& each) {
-        if (each.is_convex && each.object == object) return false;
-        int any = 0;
-        multiversion<BoxLoop>(&rays, &inverse, valid.data(), each.box, &any);
-        return any != 0;
-    });
+    int any = 0;
+    int* const to = &any;
+    multiversion<BoxesLoop>(&rays, &inverse, valid.data(), bounds.data(), bounds.size(), object, to);
+    return any != 0;
 }
 
 void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
@@ -422,8 +426,9 @@ void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
         alignas(64) std::array<int, k_size> valid;
         RTCRay16 traced;
         Inverse inverse;
+        Inverse* const to_inverse = &inverse;
         multiversion<PacketLoop>(rays.origin.from(first), rays.direction.from(first), rays.length + first,
-                                 flags, &traced, &inverse, valid.data());
+                                 flags, &traced, to_inverse, valid.data());
         if (std::ranges::all_of(valid, [](int each) { return each == 0; }) ||
             !t.meets_any(traced, inverse, valid, rays.object)) {
             std::fill_n(to, k_size, 1.0f);
