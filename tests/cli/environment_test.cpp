@@ -63,8 +63,8 @@ TEST_CASE("an environment that cannot be read as a picture is a failure that nam
 }
 
 TEST_CASE(
-    "without Embree, a scene with a transparent object is an error that names the package; any other "
-    "renders") {
+    "without Embree, a scene with a transparent object or shadows is an error that names the package; any "
+    "other renders") {
     const Folder d;
     for (const char* const name : {"libembree3.so.3", "libembree4.so.4"})
         write_file(d / "hidden" / name, "no library");
@@ -73,6 +73,9 @@ TEST_CASE(
     const CommandResult result = render("", d, hidden);
     expect(result, 1,
            {"Embree follows rays to lights and within transparent objects", "Debian's package libembree"});
+    CHECK_FALSE(d.has("out.ppm"));
+    expect(d.run("render scene.toml --reflection phong --shadows -o out.ppm", {}, hidden), 1,
+           {"shadows: Embree follows rays to lights", "Debian's package libembree"});
     CHECK_FALSE(d.has("out.ppm"));
     expect(d.run("render scene.toml --reflection phong -o out.ppm", {}, hidden), 0);
 }
