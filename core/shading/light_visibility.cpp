@@ -330,13 +330,13 @@ ConstVec3Span LightVisibility::traced() {
 ConstVec3Span LightVisibility::find_ambient(const AmbientOcclusion& occlusion) {
     const ConstVec2Span offset = sample_offsets(0);
     const auto rays = static_cast<float>(occlusion.rays);
-    AlignedVector<float> distance(k_batch_size, occlusion.distance);
+    std::fill_n(distance_.begin(), count_, occlusion.distance);
     const Vec3Span mean = mean_.span();
     for (float* const channel : {mean.x, mean.y, mean.z}) std::fill_n(channel, count_, 0.0f);
     for (int k = 0; k < occlusion.rays; ++k) {
         multiversion<HemisphereLoop>(normal_, offset.x, offset.y, static_cast<float>(k), rays, count_,
                                      direction_.span());
-        const LightSample towards{std::as_const(direction_).span(), distance.data()};
+        const LightSample towards{std::as_const(direction_).span(), distance_.data()};
         const ConstVec3Span free = trace(towards, points_->position.span());
         multiversion<AddLoop>(free, count_, mean);
     }
