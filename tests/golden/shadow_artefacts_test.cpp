@@ -257,8 +257,7 @@ TEST_CASE("a box's shadow begins where the box stands, on it or sunk into it") {
                 fmt::format("[[object]]\ntype = \"cube\"\nposition = [0, {0}, 0]\nscale = [{1}, {2}, {1}]\n"
                             "[[object]]\ntype = \"cube\"\nposition = [0, {3}, 0]\nscale = [{2}, {2}, {2}]\n",
                             -0.5 * unit, 8 * unit, unit, (0.5 - sunk) * unit));
-            // What is left in the shadow's row of pixels are the box's own faces, which face the light or
-            // not.
+            // No pixel of the shadow is lit, none in the light dark, along the whole edge.
             INFO("one unit is " << unit << " m, sunk " << sunk);
             CHECK(pair.darkened() > 1900);
             CHECK(pair.islands() == 0);
