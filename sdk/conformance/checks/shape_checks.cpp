@@ -174,7 +174,7 @@ TEST_CASE("convex, if laid out as such: no vertex is above the plane of a triang
             const Vec3 normal =
                 candela::normalized(cross(p[mesh.indices[t + 1]] - a, p[mesh.indices[t + 2]] - a));
             for (std::size_t i = 0; i < mesh.vertex_count(); i += stride) {
-                const double above = double{dot(normal, p[i] - a)};
+                const auto above = double{dot(normal, p[i] - a)};
                 if (above > tolerance)
                     FAIL("vertex " << i << " is " << above << " m above triangle " << t / 3 << ", with "
                                    << values.text);
