@@ -257,7 +257,7 @@ struct OcclusionTree::Tree {
     const Embree& embree = Embree::instance();
     RTCScene scene = embree.new_scene(embree.device);
     std::vector<Surface> surfaces;
-    std::vector<Bounds> bounds;  // of the objects; empty if there are too many to look at each
+    std::vector<Bounds> bounds;  // of the objects that cast shadows
     float largest = 0;           // extent of a triangle that blocks light on both sides
     bool has_transparent = false;
 
@@ -311,15 +311,65 @@ OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::m
         t.bounds.push_back({enlarged(occluder.mesh->bounds), t.surfaces[i].object,
                             occluder.is_solid && is_convex(*occluder.mesh)});
     }
-    // A packet takes Embree as long as some sixteen boxes.
-    constexpr std::size_t k_few = 16;
-    if (t.bounds.size() > k_few) t.bounds.clear();
     // Robust, so that no ray slips between triangles, and results do not depend on the shape of the tree.
     constexpr unsigned k_flags = unsigned{RTC_SCENE_FLAG_ROBUST} | unsigned{Embree::k_filters_by_call};
     // NOLINTNEXTLINE(clang-analyzer-optin.core.EnumCastOutOfRange): they are bits
     t.embree.set_scene_flags(t.scene, static_cast<RTCSceneFlags>(k_flags));
     t.embree.commit(t.scene, true);
     if (t.embree.get_device_error(t.embree.device) != RTC_ERROR_NONE) throw std::bad_alloc();
+}
+
+namespace {
+
+/// A box that changes linearly with s: `at` + s `by`.
+struct MovingBox {
+    Box at;
+    Vec3 low_by, high_by;
+};
+
+/// Whether it meets a box at any s from 0 to `end`.
+bool meets(const MovingBox& moving, const Box& box, double end) {
+    double begin = 0;
+    const auto require = [&](double at, double by, double most) {  // at + s by <= most
+        if (by > 0) end = std::min(end, (most - at) / by);
+        if (by < 0) begin = std::max(begin, (most - at) / by);
+        if (by == 0 && at > most) end = -1;
+    };
+    const auto along = [&](float Vec3::* axis) {
+        require(double{moving.at.low.*axis}, double{moving.low_by.*axis}, double{box.high.*axis});
+        require(-double{moving.at.high.*axis}, -double{moving.high_by.*axis}, -double{box.low.*axis});
+    };
+    along(&Vec3::x);
+    along(&Vec3::y);
+    along(&Vec3::z);
+    return begin <= end;
+}
+
+/// With more, it would take longer than tracing a batch of rays.
+constexpr std::size_t k_most_bounds = 256;
+
+bool any_meets(const std::vector<Bounds>& bounds, std::uint32_t object, const MovingBox& moving, double end) {
+    return bounds.size() > k_most_bounds || std::ranges::any_of(bounds, [&](const Bounds& each) {
+               return !(each.is_convex && each.object == object) && meets(moving, each.box, end);
+           });
+}
+
+}  // namespace
+
+Box OcclusionTree::starting(const Box& points) const noexcept {
+    const float margin = 4 * least_margin();
+    const Box wide = enlarged(points);
+    return {wide.low - Vec3{margin, margin, margin}, wide.high + Vec3{margin, margin, margin}};
+}
+
+bool OcclusionTree::may_block(const Box& points, const Box& light, std::uint32_t object) const noexcept {
+    const Box from = starting(points);
+    return any_meets(tree_->bounds, object, {from, light.low - from.low, light.high - from.high}, 1);
+}
+
+bool OcclusionTree::may_block(const Box& points, Vec3 towards, std::uint32_t object) const noexcept {
+    return any_meets(tree_->bounds, object, {starting(points), towards, towards},
+                     std::numeric_limits<double>::infinity());
 }
 
 OcclusionTree::OcclusionTree(OcclusionTree&&) noexcept = default;
@@ -406,7 +456,9 @@ bool OcclusionTree::Tree::is_blocked(const ShadowRays& rays, std::size_t ray,
 
 bool OcclusionTree::Tree::meets_any(const RTCRay16& rays, const Inverse& inverse,
                                     const std::array<int, k_size>& valid, std::uint32_t object) const {
-    if (bounds.empty()) return true;
+    // A packet takes Embree as long as some sixteen boxes.
+    constexpr std::size_t k_few = 16;
+    if (bounds.size() > k_few) return true;
     int any = 0;
     int* const to = &any;
     multiversion<BoxesLoop>(&rays, &inverse, valid.data(), bounds.data(), bounds.size(), object, to);

@@ -83,6 +83,11 @@ class CANDELA_EXPORT OcclusionTree {
     static constexpr float k_relative_margin = 0x1p-20f;
     bool has_transparent() const noexcept;
 
+    /// Whether anything may block light on its way from the points in a box, on the surface of `object`, to a
+    /// light in another box, or in that direction; `false` is certain. Takes no more time than a few rays.
+    bool may_block(const Box& points, const Box& light, std::uint32_t object) const noexcept;
+    bool may_block(const Box& points, Vec3 towards, std::uint32_t object) const noexcept;
+
     /// Writes 1 for each ray that reaches its end, 0 for each that is blocked, and adds the ways through
     /// transparent objects to `crossings`. A ray's result does not depend on the others; rays that are close
     /// to each other are fast.
@@ -92,6 +97,9 @@ class CANDELA_EXPORT OcclusionTree {
     std::optional<Blocker> find_blocker(const ShadowRays& rays, std::size_t ray) const;
 
   private:
+    /// Where rays from points in the box start.
+    Box starting(const Box& points) const noexcept;
+
     struct Tree;
     std::unique_ptr<Tree> tree_;
 };

@@ -215,6 +215,7 @@ bool LightVisibility::set_points(const SurfaceModels& surface, const ShadedObjec
     points_ = &points;
     normal_ = normal;
     count_ = whole_vectors(points.count);
+    region_.reset();
     return true;
 }
 
@@ -279,18 +280,49 @@ ConstVec3Span LightVisibility::find(const LightSample& light) {
     return std::as_const(first_).span();
 }
 
-LightSample LightVisibility::from_sample(const LightSample& light, int sample) {
-    const auto [x, y] = pattern_[static_cast<std::size_t>(sample)];
-    const float per_pixel = 1 / (16 * camera_.pixels_per_unit);
+void LightVisibility::move_in_pixels(const LightSample& light, float right, float below) {
+    const float per_pixel = 1 / camera_.pixels_per_unit;
     const SampleLoop::View view{.eye = camera_.eye,
-                                .right = static_cast<float>(x - 8) * per_pixel * camera_.right,
-                                .down = static_cast<float>(8 - y) * per_pixel * camera_.up,
+                                .right = right * per_pixel * camera_.right,
+                                .down = -below * per_pixel * camera_.up,
                                 .forward = camera_.forward,
                                 .is_perspective = camera_.projection == Projection::perspective};
     multiversion<SampleLoop>(view, points_->position.span(), points_->face_normal.span(),
                              points_->coverage.data(), light.to_light, light.distance, count_,
                              position_.span(), direction_.span(), distance_.data());
+}
+
+LightSample LightVisibility::from_sample(const LightSample& light, int sample) {
+    const auto [x, y] = pattern_[static_cast<std::size_t>(sample)];
+    move_in_pixels(light, static_cast<float>(x - 8) / 16, static_cast<float>(y - 8) / 16);
     return {std::as_const(direction_).span(), distance_.data(), light.brightness};
+}
+
+const Box& LightVisibility::region() {
+    if (region_) return *region_;
+    region_ = box_around(points_->position.span(), points_->count);
+    if (pattern_.size() == 1) return *region_;
+    const auto lower = [](Vec3 a, Vec3 b) {
+        return Vec3{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
+    };
+    // Samples are within the corners of their pixels. The light does not matter.
+    const LightSample any{normal_, points_->coverage.data()};
+    for (const float right : {-0.5f, 0.5f}) {
+        for (const float below : {-0.5f, 0.5f}) {
+            move_in_pixels(any, right, below);
+            const Box moved = box_around(std::as_const(position_).span(), points_->count);
+            region_ = Box{lower(region_->low, moved.low), -lower(-region_->high, -moved.high)};
+        }
+    }
+    return *region_;
+}
+
+bool LightVisibility::may_be_blocked(const PunctualLight& light) {
+    if (light.w == 0) return tree_->may_block(region(), light.position, object_);
+    const auto reach = [](float u, float v) { return 0.5f * (std::abs(u) + std::abs(v)); };
+    const Vec3 extent{reach(light.extent_u.x, light.extent_v.x), reach(light.extent_u.y, light.extent_v.y),
+                      reach(light.extent_u.z, light.extent_v.z)};
+    return tree_->may_block(region(), Box{light.position - extent, light.position + extent}, object_);
 }
 
 void LightVisibility::add_sample(const LightSample& light, int sample) {

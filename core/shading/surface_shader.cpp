@@ -422,16 +422,19 @@ std::span<const float* const> SurfaceShader::visibility_of_data(const SurfacePoi
     weight_pointers_.resize(lights);
     float* const everywhere = &weights_[lights * k_batch_size];
     std::fill_n(everywhere, points.filled, 1.0f);
+    bool is_any_blocked = false;
     for (std::size_t k = 0; k < lights; ++k) {
-        if (!is_blocked_[k]) {
+        if (!is_blocked_[k] || !visibility_->may_be_blocked(punctual_lights_[k])) {
             weight_pointers_[k] = everywhere;
             continue;
         }
+        is_any_blocked = true;
         const ConstVec3Span left = visibility_->find(light_at(punctual_lights_[k], 0, points));
         float* const weights = &weights_[k * k_batch_size];
         std::copy_n(left.x, points.filled, weights);
         weight_pointers_[k] = weights;
     }
+    if (!is_any_blocked) return {};
     return weight_pointers_;
 }
 
@@ -454,6 +457,7 @@ std::optional<LightSample> SurfaceShader::illuminate(const RenderLight& source, 
         const LightSample at = light_at(light, sample, points);
         multiversion<IntensityLoop>(light.diffuse, at.brightness, count, diffuse);
         multiversion<IntensityLoop>(light.specular, at.brightness, count, specular);
+        if (!visibility_->may_be_blocked(light)) return std::nullopt;
         return at;
     }
     if (is_blocked) std::fill_n(distance_.begin(), points.filled, std::numeric_limits<float>::infinity());

@@ -38,6 +38,9 @@ class LightVisibility {
     bool set_points(const SurfaceModels& surface, const ShadedObject& object, const SurfacePoints& points,
                     const ConstVec3Span& normal);
 
+    /// Whether objects may block that light, which is data, at any of the points; `false` is certain.
+    bool may_be_blocked(const PunctualLight& light);
+
     /// Writes the fraction of the light, per channel, that reaches each point; 1 where it does not shine.
     /// Valid until the next call. Where a fragment covers its pixel, the mean over the pixel's samples; a
     /// light whose samples vary is seen by one of them each. The three arrays are the same one if no light
@@ -58,6 +61,11 @@ class LightVisibility {
     /// Like find(), from given positions of the points.
     ConstVec3Span trace(const LightSample& light, const ConstVec3Span& position);
     void aim(const LightSample& light, const ConstVec3Span& position);
+    /// Writes to position_, direction_ and distance_ the points, and the light from there, that many pixels
+    /// to the right of and below the middle of their pixels.
+    void move_in_pixels(const LightSample& light, float right, float below);
+    /// All places from which rays start.
+    const Box& region();
     /// The light, and in position_ the points, from sample number `sample` of the pixels.
     LightSample from_sample(const LightSample& light, int sample);
     /// Traces from there, and adds the results to mean_.
@@ -85,6 +93,7 @@ class LightVisibility {
     AlignedVector<float> length_, visible_, offset_x_, offset_y_, distance_, brightness_;
     AlignedVector<std::uint32_t> flags_;
     std::vector<Crossing> crossings_;
+    std::optional<Box> region_;  // once asked for
 };
 
 }  // namespace candela

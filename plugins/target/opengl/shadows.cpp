@@ -17,7 +17,7 @@ using namespace target;
 
 namespace {
 
-constexpr const char* k_members =
+constexpr const char* k_shadow_members =
     "    bool receives_shadows;\n"
     "    bool is_solid;  // closed, with nothing inside: it blocks light only where the light enters it\n";
 
@@ -76,7 +76,7 @@ Values shadow_values(const ExportedScene& scene) {
         {"SHADOW_HELP", if_shadows(k_help)},
         {"SHADOW_README", if_shadows(", turn shadows off and on with H")},
         {"SHADOW_ARGUMENT", if_shadows(k_argument)},
-        {"SHADOW_MEMBERS", if_shadows(k_members)},
+        {"SHADOW_MEMBERS", if_shadows(k_shadow_members)},
         {"SHADOW_CHOICE", if_shadows("    bool has_shadows = true;\n")},
         {"SHADOW_KEY", if_shadows(k_key)},
         {"SHADOWS", std::move(texture)},
