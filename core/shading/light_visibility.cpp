@@ -56,7 +56,10 @@ struct AimLoop {
             const float largest =
                 kernel::max(kernel::max(kernel::abs(p.x), kernel::abs(p.y)), kernel::abs(p.z));
             const float margin = kernel::max(points.margin, OcclusionTree::k_relative_margin * largest);
-            const bool is_below = kernel::dot(n, l) < 0.0f;
+            // Light that only models ask for that wrap it around always comes from below, whichever way the
+            // triangle faces: otherwise its edges would show.
+            const float cosine = kernel::dot(kernel::load(points.normal, i), l);
+            const bool is_below = kernel::min(kernel::dot(n, l), cosine) < 0.0f;
             const vec3 to_middle = kernel::normalize(middle - p);
             const vec3 along = to_middle - n * kernel::dot(n, to_middle);
             const vec3 shift =
@@ -66,7 +69,7 @@ struct AimLoop {
             kernel::store(direction, i, l - shift * (1.0f / distance[i]));
             const float to = distance[i] * 0.9999990f - 2.0f * margin;
             length[i] = to;
-            const bool faces = kernel::max(kernel::dot(kernel::load(points.normal, i), l), always) > 0.0f;
+            const bool faces = kernel::max(cosine, always) > 0.0f;
             // A faulty plugin's direction must not reach Embree, and a point that is not there needs no ray.
             const bool is_sound = kernel::dot(l, l) < 4.0f && static_cast<std::uint32_t>(i) < points.count;
             const bool is_lit = faces && is_sound && brightness[i] > 0.0f && to > 2.0f * margin;

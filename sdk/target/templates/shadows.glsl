@@ -98,9 +98,13 @@ float visible_part(Receiver r, vec3 to_light, float distance) {
     vec3 p = abs(r.position);
     float margin = max(least_margin, 9.5367432e-7 * max(max(p.x, p.y), p.z));
     float reach = 0.999999 * distance - 2.0 * margin;
-    if (reach <= 0.0) return 1.0;
-    bool is_below = dot(seen_side, to_light) < 0.0 && !(dot(r.normal, to_light) > 0.0 && is_hollow(to_light));
-    return ray_is_free(r.position + (is_below ? -margin : margin) * seen_side, to_light, reach, is_below) ? 1.0 : 0.0;
+    if (reach <= 2.0 * margin) return 1.0;
+    float cosine = dot(r.normal, to_light);
+    // Light that only models ask for that wrap it around always comes from below, whichever way the triangle faces.
+    bool is_below = cosine < 0.0 || (dot(seen_side, to_light) < 0.0 && !is_hollow(to_light));
+    // Above the surface and a little before the point, so that walls that meet in it are in the way; or below and after it.
+    vec3 shift = (is_below ? -margin : margin) * (2.0 * seen_side - to_light);
+    return ray_is_free(r.position + shift, to_light - shift / distance, reach, is_below) ? 1.0 : 0.0;
 }
 
 float visible_part(Receiver r, Incident incident, float distance) {

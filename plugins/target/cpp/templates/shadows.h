@@ -146,7 +146,7 @@ struct ShadowPlace {
 // Whether the normal turns away from a light as one moves towards it across the triangle: the surface that the triangle
 // stands for is hollow there, rises towards the light, and blocks it.
 bool is_hollow(const ShadowPlace& at, vec3 to_light) {
-    if (at.triangle < 0 || dot(at.normal, to_light) <= 0) return false;
+    if (at.triangle < 0) return false;
     const Object& o = at.object;
     const auto t = static_cast<std::size_t>(at.triangle);
     const vec3 aside = cross(to_light, o.face_normal[t]);
@@ -164,9 +164,11 @@ float unblocked(const ShadowPlace& at, vec3 to_light, float distance) {
     const bool reflects = @REFLECTS@;
     if (!at.object.receives_shadows || !reflects) return 1.0f;
     const float margin = at.tree.margin_at(at.position);
-    const bool is_below = dot(at.face_normal, to_light) < 0 && !is_hollow(at, to_light);
+    // Light that only models ask for that wrap it around always comes from below, whichever way the triangle faces.
+    const bool is_below = dot(at.normal, to_light) < 0 || (dot(at.face_normal, to_light) < 0 && !is_hollow(at, to_light));
     const float length = distance * 0.9999990f - 2.0f * margin;
-    if (!(length > 0)) return 1.0f;
-    const vec3 origin = at.position + (is_below ? -margin : margin) * at.face_normal;
-    return at.tree.is_blocked({double3(origin), double3(to_light), static_cast<double>(length), &at.object, is_below, at.is_back}) ? 0.0f : 1.0f;
+    if (!(length > 2.0f * margin)) return 1.0f;
+    // Above the surface and a little before the place, so that walls that meet in it are in the way; or below and after it.
+    const vec3 shift = (is_below ? -margin : margin) * (2.0f * at.face_normal - to_light);
+    return at.tree.is_blocked({double3(at.position + shift), double3(to_light - shift / distance), static_cast<double>(length), &at.object, is_below, at.is_back}) ? 0.0f : 1.0f;
 }
