@@ -6,6 +6,7 @@ module;
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 
 module candela.raster;
@@ -113,6 +114,11 @@ void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, Point
                                                        : blend({a.normal, b.normal, c.normal}, weight));
     points.barycentric.span().set(i, weight);
     if (needs.more()) blend_attributes(mesh, vertices, needs, i, 1, points);
+}
+
+void set_triangles(PointNeeds needs, std::span<const std::uint32_t> triangles, SurfacePoints& points) {
+    points.has_triangle = needs.triangle_index;
+    if (needs.triangle_index) std::ranges::copy(triangles, points.triangle.begin());
 }
 
 void face_forward(SurfacePoints& points) {

@@ -283,8 +283,7 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
         for (const FragmentRun& run : batch.runs) to = std::fill_n(to, run.count, run.weight);
         std::fill(to, points.coverage.begin() + static_cast<std::ptrdiff_t>(points.filled), 0.0f);
     }
-    points.has_triangle = needs.triangle_index;
-    if (needs.triangle_index) std::ranges::copy(batch.triangles, points.triangle.begin());
+    set_triangles(needs, batch.triangles, points);
     face_forward(points);
     needs.uv = false;
     if (source.mesh.closed && !needs.more()) return;

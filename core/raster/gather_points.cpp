@@ -22,11 +22,6 @@ void clear_pixels(SurfacePoints& points) {
     std::ranges::fill(points.coverage, 0.0f);
 }
 
-void set_triangles(PointNeeds needs, std::span<const std::uint32_t> triangles, SurfacePoints& points) {
-    points.has_triangle = needs.triangle_index;
-    if (needs.triangle_index) std::ranges::copy(triangles, points.triangle.begin());
-}
-
 void clear_footprint(SurfacePoints& points) {
     for (AlignedVector<float>* const array : {&points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
         std::ranges::fill(*array, 0.0f);

@@ -99,8 +99,10 @@ void TileShader::begin(const RenderScene& scene, const ProjectedScene& projected
 LightingContext lighting_context(const RenderScene& scene, const Camera& camera,
                                  std::vector<Transmitter>& transmitters) {
     transmitters.clear();
-    for (const RenderObject& object : scene.objects)
-        transmitters.push_back({object.surface.environment_reflection, object.surface.color});
+    if (scene.occlusion && scene.occlusion->has_transparent()) {
+        for (const RenderObject& object : scene.objects)
+            transmitters.push_back({object.surface.environment_reflection, object.surface.color});
+    }
     return {.lights = scene.lights,
             .environment = &scene.environment,
             .camera = camera,

@@ -4,6 +4,7 @@ module;
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 module candela.raster:attributes;
 
@@ -28,6 +29,9 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
 /// Evaluates point `i` of a batch, a position on a triangle.
 void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,
                     SurfacePoints& points);
+
+/// Sets the triangle of each point, if they are needed.
+void set_triangles(PointNeeds needs, std::span<const std::uint32_t> triangles, SurfacePoints& points);
 
 /// Marks all points as seen from the front. Writes nothing if the last batch's points were as well.
 void face_forward(SurfacePoints& points);
