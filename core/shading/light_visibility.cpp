@@ -15,6 +15,7 @@ module;
 
 module candela.shading;
 
+import :clearing;
 import :light_visibility;
 import candela.api;
 import candela.geometry;
@@ -263,7 +264,7 @@ ConstVec3Span LightVisibility::find(const LightSample& light) {
     // From the last one on, because the outer ones are at the end.
     constexpr int k_first = 4;
     const Vec3Span mean = mean_.span(), first = first_.span();
-    for (float* const channel : {mean.x, mean.y, mean.z}) std::fill_n(channel, count_, 0.0f);
+    clear(mean, count_);
     std::copy_n(light.brightness, count_, brightness_.begin());
     const LightSample rest{light.to_light, light.distance, brightness_.data()};
     for (int k = 0; k < k_first; ++k) add_sample(rest, samples - 1 - k);
@@ -367,7 +368,7 @@ ConstVec3Span LightVisibility::find_ambient(const AmbientOcclusion& occlusion) {
     const auto rays = static_cast<float>(occlusion.rays);
     std::fill_n(distance_.begin(), count_, occlusion.distance);
     const Vec3Span mean = mean_.span();
-    for (float* const channel : {mean.x, mean.y, mean.z}) std::fill_n(channel, count_, 0.0f);
+    clear(mean, count_);
     for (int k = 0; k < occlusion.rays; ++k) {
         multiversion<HemisphereLoop>(normal_, offset.x, offset.y, static_cast<float>(k), rays, count_,
                                      direction_.span());

@@ -90,8 +90,9 @@ struct LightingContext {
     // Shadows.
     const OcclusionTree* occlusion = nullptr;  // of all objects; null: light is not blocked
     ShadowPattern pattern = ShadowPattern::varied;
-    int samples = 1;                              // per pixel, which the edges of shadows are smoothed with
-    std::span<const Transmitter> transmitters{};  // by object; those that are not transparent have no model
+    int samples = 1;  // per pixel, which the edges of shadows are smoothed with
+    std::span<const Transmitter>
+        transmitters{};  // by object, if any is transparent; the others have no model
 };
 
 }  // namespace candela

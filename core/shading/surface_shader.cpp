@@ -26,6 +26,7 @@ module candela.shading;
 
 import :guarded;
 import :light_visibility;
+import :clearing;
 import :object_environment;
 import candela.api;
 import candela.plugins;
@@ -99,64 +100,6 @@ struct SumLoop {
     }
 };
 
-/// A light that is data, at each point. `offset`: where in its extent.
-struct PunctualLoop {
-    CANDELA_BATCH_LOOP static void run(PunctualLight light, ConstVec3Span position, ConstVec3Span normal,
-                                       ConstVec2Span offset, std::size_t count, Vec3Span to_light,
-                                       float* distance, float* attenuation) {
-        const vec3 source(light.position.x, light.position.y, light.position.z);
-        const vec3 u(light.extent_u.x, light.extent_u.y, light.extent_u.z);
-        const vec3 v(light.extent_v.x, light.extent_v.y, light.extent_v.z);
-        const vec3 axis(light.axis.x, light.axis.y, light.axis.z);
-        const bool is_distant = light.w == 0.0f;
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            const vec3 at = source + u * offset.x[i] + v * offset.y[i];
-            const vec3 to_source = at - kernel::load(position, i) * light.w;
-            const float square = kernel::dot(to_source, to_source);
-            const float inverse = kernel::inversesqrt(kernel::max(square, 1.0e-36f));
-            const vec3 l = square > 1.0e-36f ? to_source * inverse : kernel::load(normal, i);
-            const float away = square * inverse;
-            const float r = kernel::max(away, 1.0e-4f);
-            const float cosine = -kernel::dot(l, axis);
-            const float t = kernel::clamp((cosine - light.cos_outer) * light.cone_scale, 0.0f, 1.0f);
-            const float smooth = t * t * (3.0f - 2.0f * t);
-            const float cone = light.has_cone ? (light.is_smooth ? smooth : t) : 1.0f;
-            kernel::store(to_light, i, l);
-            distance[i] = is_distant ? std::numeric_limits<float>::infinity() : away;
-            attenuation[i] = cone / (light.constant + r * (light.linear + r * light.quadratic));
-        }
-    }
-};
-
-struct IntensityLoop {
-    CANDELA_BATCH_LOOP static void run(Rgb intensity, const float* attenuation, std::size_t count,
-                                       Vec3Span to) {
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i)
-            kernel::store(to, i, vec3(intensity.r, intensity.g, intensity.b) * attenuation[i]);
-    }
-};
-
-/// A number that is zero where there is no light.
-struct BrightnessLoop {
-    CANDELA_BATCH_LOOP static void run(ConstVec3Span a, ConstVec3Span b, std::size_t count, float* to) {
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i) {
-            const vec3 sum = kernel::load(a, i) + kernel::load(b, i);
-            to[i] = sum.x + sum.y + sum.z;
-        }
-    }
-};
-
-struct ProductLoop {
-    CANDELA_BATCH_LOOP static void run(ConstVec3Span by, std::size_t count, Vec3Span v) {
-        CANDELA_VECTORIZE
-        for (std::size_t i = 0; i < count; ++i)
-            kernel::store(v, i, kernel::load(ConstVec3Span(v), i) * kernel::load(by, i));
-    }
-};
-
 template <std::size_t terms>
 float add(const std::array<ConstVec3Span, terms>& of, std::size_t count, const Vec3Span& sum) {
     std::int32_t bits = 0;
@@ -176,18 +119,9 @@ bool are_finite(ConstVec3Span v, std::size_t count) {
 /// The size of the canary after the batch arrays' last element, in floats.
 constexpr std::size_t k_guard_size = 16;
 
-void clear(const Vec3Span& span, std::size_t count) {
-    for (float* const channel : {span.x, span.y, span.z}) std::fill_n(channel, count, 0.0f);
-}
-
 /// The number of points of a batch that are lit: whole vectors, unless rays are followed from each of them.
 std::size_t lit_of(const SurfaceModels& surface, const SurfacePoints& points) {
     return surface.environment_reflection != nullptr ? points.count : points.filled;
-}
-
-/// Whether a sample of a light is more than a point.
-bool is_extended(const PunctualLight& sample) {
-    return sample.extent_u != Vec3{} || sample.extent_v != Vec3{};
 }
 
 /// Empty if the light does not describe itself.
@@ -203,8 +137,6 @@ std::optional<LightData> data_of(const Light& light, bool has_ambient) {
 }
 
 }  // namespace
-
-bool RenderLight::has_extent() const { return data && std::ranges::any_of(data->samples, is_extended); }
 
 RenderLight render_light(Registry& registry, const Model& model, ColorEncoding encoding) {
     RenderLight made{.plugin = model.name,
@@ -278,7 +210,7 @@ void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, 
     surface.shading->normals(batch, normal);
 }
 
-SurfaceShader::SurfaceShader() : visibility_(std::make_unique<LightVisibility>()) {
+SurfaceShader::SurfaceShader() {
     for (AlignedVector<float>* const array : {&distance_, &attenuation_})
         array->resize(k_batch_size + k_guard_size);
     zeros_.resize(k_batch_size);
@@ -291,7 +223,9 @@ SurfaceShader::~SurfaceShader() = default;
 
 void SurfaceShader::begin(const LightingContext& scene) {
     scene_ = scene;
-    visibility_->begin(scene);
+    if (scene.occlusion != nullptr && visibility_ == nullptr)
+        visibility_ = std::make_unique<LightVisibility>();
+    if (visibility_ != nullptr) visibility_->begin(scene);
     surroundings_.reset();
     lights_.clear();
     other_lights_.clear();
@@ -366,7 +300,8 @@ float SurfaceShader::shade(const SurfaceModels& surface, const ShadedObject& obj
                            const SurfacePoints& points, const Vec3Span& intensity) {
     const std::size_t count = lit_of(surface, points);
     find_normals(surface, points);
-    has_shadows_ = visibility_->set_points(surface, object, points, std::as_const(normal_).span());
+    has_shadows_ = visibility_ != nullptr &&
+                   visibility_->set_points(surface, object, points, std::as_const(normal_).span());
     const ConstVec3Span ambient = std::as_const(ambient_).span(), diffuse = std::as_const(diffuse_).span(),
                         specular = std::as_const(specular_).span(),
                         reflected = std::as_const(reflected_).span();
@@ -413,84 +348,6 @@ bool SurfaceShader::reflect_all_lights(const SurfaceModels& surface, const Surfa
     batch.to_observer = {};
     guarded(PluginKind::reflection, surface.reflection_plugin,
             [&] { surface.all_lights_reflection->reflect_all_lights(batch, lighting, reflected_.span()); });
-    return true;
-}
-
-std::span<const float* const> SurfaceShader::visibility_of_data(const SurfacePoints& points) {
-    const std::size_t lights = punctual_lights_.size();
-    weights_.resize((lights + 1) * k_batch_size);
-    weight_pointers_.resize(lights);
-    float* const everywhere = &weights_[lights * k_batch_size];
-    std::fill_n(everywhere, points.filled, 1.0f);
-    bool is_any_blocked = false;
-    for (std::size_t k = 0; k < lights; ++k) {
-        if (!is_blocked_[k] || !visibility_->may_be_blocked(punctual_lights_[k])) {
-            weight_pointers_[k] = everywhere;
-            continue;
-        }
-        is_any_blocked = true;
-        const ConstVec3Span left = visibility_->find(light_at(punctual_lights_[k], 0, points));
-        float* const weights = &weights_[k * k_batch_size];
-        std::copy_n(left.x, points.filled, weights);
-        weight_pointers_[k] = weights;
-    }
-    if (!is_any_blocked) return {};
-    return weight_pointers_;
-}
-
-LightSample SurfaceShader::light_at(const PunctualLight& light, int sample, const SurfacePoints& points) {
-    const ConstVec2Span offset = is_extended(light) ? visibility_->sample_offsets(sample)
-                                                    : ConstVec2Span{zeros_.data(), zeros_.data()};
-    multiversion<PunctualLoop>(light, points.position.span(), std::as_const(normal_).span(), offset,
-                               points.filled, to_light_.span(), distance_.data(), attenuation_.data());
-    const bool varies = is_extended(light) && scene_.pattern == ShadowPattern::varied;
-    return {std::as_const(to_light_).span(), distance_.data(), attenuation_.data(), varies ? sample : -1};
-}
-
-std::optional<LightSample> SurfaceShader::illuminate(const RenderLight& source, int sample,
-                                                     const SurfacePoints& points, std::size_t count) {
-    const Vec3Span to_light = to_light_.span(), diffuse = light_diffuse_.span(),
-                   specular = light_specular_.span();
-    const bool is_blocked = has_shadows_ && source.casts_shadows;
-    if (is_blocked && source.data) {
-        const PunctualLight& light = source.data->samples[static_cast<std::size_t>(sample)];
-        const LightSample at = light_at(light, sample, points);
-        multiversion<IntensityLoop>(light.diffuse, at.brightness, count, diffuse);
-        multiversion<IntensityLoop>(light.specular, at.brightness, count, specular);
-        if (!visibility_->may_be_blocked(light)) return std::nullopt;
-        return at;
-    }
-    if (is_blocked) std::fill_n(distance_.begin(), points.filled, std::numeric_limits<float>::infinity());
-    guarded(PluginKind::light, source.plugin, [&] {
-        source.light->illuminate(
-            sample,
-            {.count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()},
-            {to_light, diffuse, specular, is_blocked ? distance_.data() : nullptr});
-    });
-    if (!is_blocked) return std::nullopt;
-    multiversion<BrightnessLoop>(ConstVec3Span(diffuse), ConstVec3Span(specular), count, attenuation_.data());
-    return LightSample{std::as_const(to_light_).span(), distance_.data(), attenuation_.data()};
-}
-
-void SurfaceShader::block(const LightSample& light, std::size_t count) {
-    const ConstVec3Span left = visibility_->find(light);
-    multiversion<ProductLoop>(left, count, light_diffuse_.span());
-    multiversion<ProductLoop>(left, count, light_specular_.span());
-}
-
-void SurfaceShader::illuminate_ambient(const RenderLight& source, const SurfacePoints& points,
-                                       std::size_t count) {
-    guarded(PluginKind::light, source.plugin, [&] {
-        source.light->illuminate_ambient(
-            {.count = count, .position = points.position.span(), .normal = std::as_const(normal_).span()},
-            light_diffuse_.span());
-    });
-}
-
-bool SurfaceShader::block_ambient(const RenderLight& source, std::size_t count) {
-    if (!has_shadows_ || source.ambient_occlusion.rays == 0) return false;
-    const ConstVec3Span free = visibility_->find_ambient(source.ambient_occlusion);
-    multiversion<ProductLoop>(free, count, light_diffuse_.span());
     return true;
 }
 

@@ -106,9 +106,9 @@ class CANDELA_EXPORT SurfaceShader {
     Vec3Arrays normal_, to_observer_, tangent_;
     Vec3Arrays to_light_, light_diffuse_, light_specular_;
     Vec3Arrays ambient_, diffuse_, specular_;
-    Vec3Arrays reflected_;      // of the lights that are data
-    bool has_shadows_ = false;  // at the current points
-    std::unique_ptr<LightVisibility> visibility_;
+    Vec3Arrays reflected_;                         // of the lights that are data
+    bool has_shadows_ = false;                     // at the current points
+    std::unique_ptr<LightVisibility> visibility_;  // created for the first scene with shadows
     AlignedVector<float> distance_, attenuation_, weights_, zeros_;
     std::vector<const float*> weight_pointers_;
 };

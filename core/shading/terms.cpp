@@ -7,6 +7,7 @@ module;
 
 module candela.shading;
 
+import :clearing;
 import :light_visibility;
 import :term;
 import candela.api;
@@ -14,10 +15,6 @@ import candela.api;
 namespace candela {
 
 namespace {
-
-void clear(const Vec3Span& to, std::size_t count) {
-    for (float* const channel : {to.x, to.y, to.z}) std::fill_n(channel, count, 0.0f);
-}
 
 void copy(const Vec3Arrays& from, std::size_t count, const Vec3Span& to) {
     std::copy_n(from.x.begin(), count, to.x);

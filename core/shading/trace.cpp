@@ -1,6 +1,5 @@
 module;
 
-#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <stdexcept>
@@ -8,6 +7,7 @@ module;
 
 module candela.shading;
 
+import :clearing;
 import :guarded;
 import :light_visibility;
 import :object_environment;
@@ -61,10 +61,9 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
     const std::size_t count = surface.environment_reflection != nullptr ? points.count : points.filled;
     const SurfaceBatch batch = lit_surface(surface, points, count);
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
-    const auto clear = [&] {
-        for (const Vec3Span& part : {reflected.ambient, reflected.diffuse, reflected.specular}) {
-            for (float* const channel : {part.x, part.y, part.z}) std::fill_n(channel, count, 0.0f);
-        }
+    const auto start = [&] {
+        for (const Vec3Span& part : {reflected.ambient, reflected.diffuse, reflected.specular})
+            clear(part, count);
     };
     const auto add = [&](LightTrace light) {
         light.reflected_ambient = first_of(ambient_);
@@ -75,7 +74,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
         const RenderLight& source = scene_.lights[i];
         for (int sample = 0; sample < source.light->sample_count(); ++sample) {
-            clear();
+            start();
             LightTrace light{.light = i, .sample = sample};
             if (const auto shadowed = illuminate(source, sample, points, count)) {
                 block(*shadowed, count);
@@ -92,7 +91,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
             add(light);
         }
         if (source.has_ambient) {
-            clear();
+            start();
             LightTrace light{.light = i};
             illuminate_ambient(source, points, count);
             if (block_ambient(source, count))
@@ -104,7 +103,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
         }
     }
     if (surface.environment_reflection != nullptr) {
-        clear();
+        start();
         guarded(PluginKind::reflection, surface.reflection_plugin,
                 [&] { surface.environment_reflection->show_environment(batch, *surroundings_, reflected); });
         trace.surroundings = first_of(specular_);
