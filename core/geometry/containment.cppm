@@ -26,6 +26,14 @@ struct Box {
     }
 };
 
+/// The box around two.
+constexpr Box united(const Box& a, const Box& b) {
+    const auto least = [](float p, float q) { return p < q ? p : q; };
+    const auto most = [](float p, float q) { return p > q ? p : q; };
+    return {{least(a.low.x, b.low.x), least(a.low.y, b.low.y), least(a.low.z, b.low.z)},
+            {most(a.high.x, b.high.x), most(a.high.y, b.high.y), most(a.high.z, b.high.z)}};
+}
+
 CANDELA_EXPORT Box box_around(ConstVec3Span position, std::size_t count);
 
 /// Whether other bodies may be inside this one.

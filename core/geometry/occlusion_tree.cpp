@@ -1,5 +1,6 @@
 module;
 
+#include "candela/kernel/kernel.h"
 #include "candela/kernel/simd_dispatch.h"
 #include "internal/embree_headers.h"
 
@@ -19,12 +20,16 @@ module;
 module candela.geometry;
 
 import :embree;
+import :light_filter;
+import :shaft_culling;
 import candela.api;
 import candela.util;
 
 namespace candela {
 
 namespace {
+
+using kernel::vec3;
 
 constexpr std::size_t k_size = OcclusionTree::k_packet;
 static_assert(k_size == Embree::k_packet_size);
@@ -33,117 +38,58 @@ static_assert(k_size == Embree::k_packet_size);
 /// of spheres, needles and triangles at random; then 58 to 70. One thread takes a second per million.
 constexpr std::uint64_t k_bytes_per_triangle = 120;
 
-/// Where several triangles meet, Embree's answer depends on the packet's other rays. This close to an edge,
-/// in barycentric coordinates, a ray is traced on its own.
-constexpr float k_near_edge = 0x1p-12f;
+/// A triangle of a solid object that blocked a ray. It is likely to block the rays next to it (compare the
+/// shadow cache of Haines and Greenberg 1986, "The light buffer").
+struct CachedBlocker {
+    Vec3 corner, edge_u, edge_v;
+    float least_square = 0;          // of the determinant: for a cosine that is not small
+    float most_square_distance = 0;  // from farther away, it looks so small that rounding matters
 
-/// Hits of a closed object in one sense are the same crossing, of an edge, if they are this close to each
-/// other, relative to their distance.
-constexpr float k_same_edge = 0x1p-10f;
-
-/// Embree passes it to the filter with each hit of the surface.
-struct Surface {
-    std::uint32_t object = 0;
-    bool is_solid = false;
-    bool is_transparent = false;
-    bool has_inside = false;
+    CachedBlocker(const Mesh& mesh, std::uint32_t triangle) {
+        const std::uint32_t* const index = &mesh.indices[3 * std::size_t{triangle}];
+        corner = mesh.vertices[index[0]].position;
+        edge_u = mesh.vertices[index[1]].position - corner;
+        edge_v = mesh.vertices[index[2]].position - corner;
+        const Vec3 third = edge_v - edge_u;
+        const float area = length(cross(edge_u, edge_v));
+        const float longest = std::max({dot(edge_u, edge_u), dot(edge_v, edge_v), dot(third, third)});
+        least_square = 0x1p-16f * area * area;
+        most_square_distance = 0x1p+20f * area * area / longest;
+    }
 };
 
-/// A hit of a transparent object: rays meet its surface in pairs.
-struct TransparentHit {
-    std::uint32_t ray, object;
-    float along;  // the ray, in multiples of its direction
-    bool enters, is_near_edge;
-    std::uint32_t triangle;
-};
-
-/// The filter's knowledge of a packet. Its beginning is Embree's own.
-struct PacketContext {
-    Embree::RayContext context{};
-    std::uint32_t object = 0;  // on which the rays start
-    bool is_one_ray = false;
-    mutable std::uint32_t near_edges = 0;  // a bit for each ray that is to be traced on its own
-    std::vector<TransparentHit>* hits = nullptr;
-};
-
-/// The cosine, times lengths, of the angle between a ray and the outer normal of the triangle that it hits:
-/// positive where it leaves.
-float leaving(const RTCFilterFunctionNArguments* hits, unsigned i) {
-    const unsigned count = hits->N;
-    return RTCRayN_dir_x(hits->ray, count, i) * RTCHitN_Ng_x(hits->hit, count, i) +
-           RTCRayN_dir_y(hits->ray, count, i) * RTCHitN_Ng_y(hits->hit, count, i) +
-           RTCRayN_dir_z(hits->ray, count, i) * RTCHitN_Ng_z(hits->hit, count, i);
-}
-
-bool is_near_edge(const RTCFilterFunctionNArguments* hits, unsigned i) {
-    const float u = RTCHitN_u(hits->hit, hits->N, i), v = RTCHitN_v(hits->hit, hits->N, i);
-    return std::min({u, v, 1 - u - v}) < k_near_edge;
-}
-
-/// Whether the surface blocks a ray that hits it.
-bool is_blocking(const Surface& surface, bool is_own, std::uint32_t flags, float cosine) {
-    if (surface.is_solid) return cosine < 0;
-    if (!is_own || (flags & ShadowRays::k_from_below) == 0) return true;
-    return (flags & ShadowRays::k_from_behind) != 0 ? cosine > 0 : cosine < 0;
-}
-
-/// A packet's hits of a solid object that is not transparent: lets light pass where it leaves. Hits near
-/// edges are listed separately.
-struct SolidLoop {
-    CANDELA_BATCH_LOOP static void run(const RTCRayN* ray, const RTCHitN* hit, int* valid, int* near_edge,
-                                       int* any) {
-        const auto* const r = reinterpret_cast<const RTCRay16*>(ray);
-        const auto* const h = reinterpret_cast<const RTCHit16*>(hit);
-        int found = 0;
+/// Takes the rays out of a packet that a triangle certainly blocks, away from its edges and from the rays'
+/// ends. The intersection of Moeller and Trumbore (1997).
+struct CachedBlockerLoop {
+    CANDELA_BATCH_LOOP static void run(CachedBlocker triangle, const RTCRay16* rays, int* valid, int* blocked,
+                                       int* any_left) {
+        constexpr float k_edge = 0x1p-8f, k_end = 0x1p-10f;
+        const vec3 a(triangle.corner.x, triangle.corner.y, triangle.corner.z);
+        const vec3 u(triangle.edge_u.x, triangle.edge_u.y, triangle.edge_u.z);
+        const vec3 v(triangle.edge_v.x, triangle.edge_v.y, triangle.edge_v.z);
+        int left = 0;
         CANDELA_VECTORIZE_SIXTEEN
         for (std::size_t i = 0; i < k_size; ++i) {
-            const float cosine =
-                r->dir_x[i] * h->Ng_x[i] + r->dir_y[i] * h->Ng_y[i] + r->dir_z[i] * h->Ng_z[i];
-            const float u = h->u[i], v = h->v[i], w = 1 - u - v;
-            const float uv = u < v ? u : v, least = uv < w ? uv : w;
-            const int blocked = cosine < 0 ? valid[i] : 0;
-            const int at_edge = least < k_near_edge ? blocked : 0;
-            near_edge[i] = at_edge;
-            valid[i] = blocked ^ at_edge;
-            found |= at_edge;
+            const vec3 from = vec3(rays->org_x[i], rays->org_y[i], rays->org_z[i]) - a;
+            const vec3 d(rays->dir_x[i], rays->dir_y[i], rays->dir_z[i]);
+            const vec3 p = kernel::cross(d, v), q = kernel::cross(from, u);
+            const float det = kernel::dot(u, p);  // positive where the ray enters
+            const float at_u = kernel::dot(from, p), at_v = kernel::dot(d, q), t = kernel::dot(v, q);
+            const float edge = k_edge * det, square = kernel::dot(from, from);
+            const bool is_inside = (at_u > edge) & (at_v > edge) & (at_u + at_v < det - edge);
+            const float along = kernel::dot(d, d);
+            const bool is_between = (t * t * along > k_end * k_end * square * det * det) & (t > 0) &
+                                    (t < (1 - k_end) * rays->tfar[i] * det);
+            const bool is_sound = (det > 0) & (det * det > triangle.least_square * along) &
+                                  (square < triangle.most_square_distance);
+            const int now = (is_inside & is_between & is_sound) ? valid[i] : 0;
+            blocked[i] |= now;
+            valid[i] ^= now;
+            left |= valid[i];
         }
-        *any = found;
+        *any_left = left;
     }
 };
-
-/// Lets light pass where it leaves a solid object, or its own; and through transparent ones.
-void let_pass(const RTCFilterFunctionNArguments* hits) {
-    const auto& surface = *static_cast<const Surface*>(hits->geometryUserPtr);
-    const auto& packet = *reinterpret_cast<const PacketContext*>(hits->context);
-    if (hits->N == k_size && surface.is_solid && !surface.is_transparent && !packet.is_one_ray) {
-        alignas(64) std::array<int, k_size> near_edge;
-        int any = 0;
-        int* const to = &any;
-        multiversion<SolidLoop>(static_cast<const RTCRayN*>(hits->ray),
-                                static_cast<const RTCHitN*>(hits->hit), hits->valid, near_edge.data(), to);
-        for (unsigned i = 0; any != 0 && i < k_size; ++i) {
-            if (near_edge[i] != 0) packet.near_edges |= 1u << (RTCRayN_id(hits->ray, k_size, i) % k_size);
-        }
-        return;
-    }
-    const bool is_own = surface.object == packet.object;
-    for (unsigned i = 0; i < hits->N; ++i) {
-        if (hits->valid[i] == 0) continue;
-        const float cosine = leaving(hits, i);
-        const std::uint32_t id = RTCRayN_id(hits->ray, hits->N, i), ray = id % k_size;
-        const bool is_blocked = !surface.is_transparent && is_blocking(surface, is_own, id, cosine);
-        if (!is_blocked) hits->valid[i] = 0;
-        if (!is_blocked && !(surface.is_transparent && surface.has_inside)) continue;
-        const bool is_at_edge = is_near_edge(hits, i);
-        if (is_at_edge && !packet.is_one_ray) {
-            packet.near_edges |= 1u << ray;
-            hits->valid[i] = 0;
-        } else if (!is_blocked) {
-            packet.hits->push_back({ray, surface.object, RTCRayN_tfar(hits->ray, hits->N, i), cosine < 0,
-                                    is_at_edge, RTCHitN_primID(hits->hit, hits->N, i)});
-        }
-    }
-}
 
 /// One over a packet's directions.
 struct Inverse {
@@ -154,7 +100,8 @@ struct Inverse {
 struct PacketLoop {
     CANDELA_BATCH_LOOP static void run(ConstVec3Span origin, ConstVec3Span direction, const float* length,
                                        const std::uint32_t* flags, RTCRay16* rays, Inverse* inverse,
-                                       int* valid) {
+                                       int* valid, int* any) {
+        std::uint32_t all = 0;
         CANDELA_VECTORIZE_SIXTEEN
         for (std::size_t i = 0; i < k_size; ++i) {
             rays->org_x[i] = origin.x[i];
@@ -170,10 +117,24 @@ struct PacketLoop {
             rays->flags[i] = 0;
             rays->id[i] = flags[i] | static_cast<std::uint32_t>(i);
             valid[i] = flags[i] != 0 ? -1 : 0;
+            all |= flags[i];
             // Not of zero, so that no product with it is NaN.
             inverse->x[i] = 1 / (direction.x[i] == 0 ? 1e-30f : direction.x[i]);
             inverse->y[i] = 1 / (direction.y[i] == 0 ? 1e-30f : direction.y[i]);
             inverse->z[i] = 1 / (direction.z[i] == 0 ? 1e-30f : direction.z[i]);
+        }
+        *any = static_cast<int>(all);
+    }
+};
+
+/// 0 for the rays that were blocked, 1 for the others. Embree marks them by a negative end.
+struct VisibleLoop {
+    CANDELA_BATCH_LOOP static void run(const RTCRay16* rays, const int* valid, const int* blocked,
+                                       float* visible) {
+        CANDELA_VECTORIZE_SIXTEEN
+        for (std::size_t i = 0; i < k_size; ++i) {
+            const bool is_blocked = (blocked[i] != 0) | ((valid[i] != 0) & (rays->tfar[i] < 0));
+            visible[i] = is_blocked ? 0.0f : 1.0f;
         }
     }
 };
@@ -184,13 +145,6 @@ struct Bounds {
     std::uint32_t object = 0;
     bool is_convex = false;
 };
-
-/// Enlarged by more than rounding may move a ray or a triangle, so that Embree finds no hit outside.
-Box enlarged(const Box& box) {
-    const auto magnitude = [](Vec3 v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); };
-    const float by = 0x1p-16f * std::max(magnitude(box.low), magnitude(box.high));
-    return {box.low - Vec3{by, by, by}, box.high + Vec3{by, by, by}};
-}
 
 /// Whether no vertex is above any triangle, except for rounding. Only for shapes that say so, and small
 /// meshes: each vertex is compared with each triangle.
@@ -257,9 +211,12 @@ struct OcclusionTree::Tree {
     const Embree& embree = Embree::instance();
     RTCScene scene = embree.new_scene(embree.device);
     std::vector<Surface> surfaces;
-    std::vector<Bounds> bounds;  // of the objects that cast shadows
-    float largest = 0;           // extent of a triangle that blocks light on both sides
+    std::vector<Bounds> bounds;              // of the objects that cast shadows
+    std::vector<TriangleClusters> clusters;  // of these objects
+    Box box{};                               // around them
+    float largest = 0;                       // extent of a triangle that blocks light on both sides
     bool has_transparent = false;
+    bool is_dense = false;
 
     Tree() = default;
     Tree(const Tree&) = delete;
@@ -267,6 +224,7 @@ struct OcclusionTree::Tree {
     ~Tree() { embree.release_scene(scene); }
 
     void add(const Mesh& mesh, Surface& surface) const;
+    bool may_block(const Shaft& shaft, std::uint32_t object) const;
 
     /// Whether rays that start on `object` come near any object that may block them.
     bool meets_any(const RTCRay16& rays, const Inverse& inverse, const std::array<int, k_size>& valid,
@@ -290,6 +248,17 @@ void OcclusionTree::Tree::add(const Mesh& mesh, Surface& surface) const {
     embree.release_geometry(geometry);
 }
 
+bool OcclusionTree::Tree::may_block(const Shaft& shaft, std::uint32_t object) const {
+    // With more, it would take longer than tracing a batch of rays.
+    constexpr std::size_t k_most = 256;
+    if (bounds.size() > k_most) return true;
+    for (std::size_t i = 0; i < bounds.size(); ++i) {
+        if (bounds[i].is_convex && bounds[i].object == object) continue;
+        if (clusters[i].may_block(shaft)) return true;
+    }
+    return false;
+}
+
 OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::make_unique<Tree>()) {
     Tree& t = *tree_;
     std::uint64_t triangles = 0;
@@ -297,19 +266,24 @@ OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::m
         if (each.mesh != nullptr) triangles += each.mesh->triangle_count();
     }
     require_memory(triangles * k_bytes_per_triangle, "the tree of the triangles that cast shadows");
+    constexpr std::uint64_t k_many = 4096;
+    t.is_dense = triangles > k_many;
     t.surfaces.resize(occluders.size());
     for (std::size_t i = 0; i < occluders.size(); ++i) {
         const Occluder& occluder = occluders[i];
         if (occluder.mesh == nullptr || occluder.mesh->indices.empty()) continue;
-        t.surfaces[i] = {.object = static_cast<std::uint32_t>(i),
+        t.surfaces[i] = {.mesh = occluder.mesh,
+                         .object = static_cast<std::uint32_t>(i),
                          .is_solid = occluder.is_solid,
                          .is_transparent = occluder.is_transparent,
                          .has_inside = occluder.mesh->open_edges == 0};
         t.has_transparent = t.has_transparent || occluder.is_transparent;
         if (!occluder.is_solid) t.largest = std::max(t.largest, largest_triangle(*occluder.mesh));
         t.add(*occluder.mesh, t.surfaces[i]);
-        t.bounds.push_back({enlarged(occluder.mesh->bounds), t.surfaces[i].object,
-                            occluder.is_solid && is_convex(*occluder.mesh)});
+        const Box box = enlarged(occluder.mesh->bounds);
+        t.box = t.bounds.empty() ? box : united(t.box, box);
+        t.bounds.push_back({box, t.surfaces[i].object, occluder.is_solid && is_convex(*occluder.mesh)});
+        t.clusters.emplace_back(*occluder.mesh, occluder.is_solid && !occluder.is_transparent);
     }
     // Robust, so that no ray slips between triangles, and results do not depend on the shape of the tree.
     constexpr unsigned k_flags = unsigned{RTC_SCENE_FLAG_ROBUST} | unsigned{Embree::k_filters_by_call};
@@ -319,43 +293,6 @@ OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::m
     if (t.embree.get_device_error(t.embree.device) != RTC_ERROR_NONE) throw std::bad_alloc();
 }
 
-namespace {
-
-/// A box that changes linearly with s: `at` + s `by`.
-struct MovingBox {
-    Box at;
-    Vec3 low_by, high_by;
-};
-
-/// Whether it meets a box at any s from 0 to `end`.
-bool meets(const MovingBox& moving, const Box& box, double end) {
-    double begin = 0;
-    const auto require = [&](double at, double by, double most) {  // at + s by <= most
-        if (by > 0) end = std::min(end, (most - at) / by);
-        if (by < 0) begin = std::max(begin, (most - at) / by);
-        if (by == 0 && at > most) end = -1;
-    };
-    const auto along = [&](float Vec3::* axis) {
-        require(double{moving.at.low.*axis}, double{moving.low_by.*axis}, double{box.high.*axis});
-        require(-double{moving.at.high.*axis}, -double{moving.high_by.*axis}, -double{box.low.*axis});
-    };
-    along(&Vec3::x);
-    along(&Vec3::y);
-    along(&Vec3::z);
-    return begin <= end;
-}
-
-/// With more, it would take longer than tracing a batch of rays.
-constexpr std::size_t k_most_bounds = 256;
-
-bool any_meets(const std::vector<Bounds>& bounds, std::uint32_t object, const MovingBox& moving, double end) {
-    return bounds.size() > k_most_bounds || std::ranges::any_of(bounds, [&](const Bounds& each) {
-               return !(each.is_convex && each.object == object) && meets(moving, each.box, end);
-           });
-}
-
-}  // namespace
-
 Box OcclusionTree::starting(const Box& points) const noexcept {
     const float margin = 4 * least_margin();
     const Box wide = enlarged(points);
@@ -363,13 +300,11 @@ Box OcclusionTree::starting(const Box& points) const noexcept {
 }
 
 bool OcclusionTree::may_block(const Box& points, const Box& light, std::uint32_t object) const noexcept {
-    const Box from = starting(points);
-    return any_meets(tree_->bounds, object, {from, light.low - from.low, light.high - from.high}, 1);
+    return tree_->may_block(shaft_to(starting(points), light), object);
 }
 
 bool OcclusionTree::may_block(const Box& points, Vec3 towards, std::uint32_t object) const noexcept {
-    return any_meets(tree_->bounds, object, {starting(points), towards, towards},
-                     std::numeric_limits<double>::infinity());
+    return tree_->may_block(shaft_towards(starting(points), towards, tree_->box), object);
 }
 
 OcclusionTree::OcclusionTree(OcclusionTree&&) noexcept = default;
@@ -377,51 +312,10 @@ OcclusionTree& OcclusionTree::operator=(OcclusionTree&&) noexcept = default;
 OcclusionTree::~OcclusionTree() = default;
 
 float OcclusionTree::least_margin() const noexcept { return k_relative_margin * tree_->largest; }
+bool OcclusionTree::is_dense() const noexcept { return tree_->is_dense; }
 bool OcclusionTree::has_transparent() const noexcept { return tree_->has_transparent; }
 
 namespace {
-
-/// Removes all but one of the hits of a ray and an object, sorted by their distance, that are the same
-/// crossing of an edge; and those that only touch it.
-void merge_edges(std::vector<TransparentHit>& hits) {
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < hits.size();) {
-        const TransparentHit first = hits[i];
-        bool enters = first.enters, leaves = !first.enters;
-        for (++i; i < hits.size() && first.is_near_edge && hits[i].is_near_edge && hits[i].ray == first.ray &&
-                  hits[i].object == first.object && hits[i].along - first.along <= k_same_edge * first.along;
-             ++i)
-            (hits[i].enters ? enters : leaves) = true;
-        if (enters != leaves) hits[kept++] = first;
-    }
-    hits.resize(kept);
-}
-
-/// Adds the ways of a packet's rays through transparent objects. `hits` is sorted and emptied.
-void add_crossings(std::vector<TransparentHit>& hits, std::uint32_t first, const float* length,
-                   std::vector<Crossing>& crossings) {
-    const auto key = [](const TransparentHit& hit) {
-        return std::tuple(hit.ray, hit.object, hit.along, hit.triangle);
-    };
-    std::ranges::sort(hits, {}, key);
-    // A filter may be asked twice about one hit.
-    hits.erase(std::ranges::unique(hits, {}, key).begin(), hits.end());
-    merge_edges(hits);
-    for (std::size_t i = 0; i < hits.size();) {
-        const TransparentHit& hit = hits[i];
-        float inside = 0;
-        int open = 0;
-        for (; i < hits.size() && hits[i].ray == hit.ray && hits[i].object == hit.object; ++i) {
-            inside += hits[i].enters ? -hits[i].along : hits[i].along;
-            open += hits[i].enters ? 1 : -1;
-        }
-        // A light inside the object: its light leaves once more than it enters.
-        const float end = length[hit.ray];
-        if (open > 0 && std::isfinite(end)) inside += static_cast<float>(open) * end;
-        crossings.push_back({first + hit.ray, hit.object, std::max(inside, 0.0f)});
-    }
-    hits.clear();
-}
 
 /// Sets the first ray of an empty packet.
 void set_ray(const ShadowRays& rays, std::size_t ray, RTCRay16& packet) {
@@ -472,24 +366,27 @@ void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
     PacketContext packet;
     packet.object = rays.object;
     packet.hits = &hits;
+    std::optional<CachedBlocker> cached;
     for (std::size_t first = 0; first < rays.count; first += k_size) {
         const std::uint32_t* const flags = rays.flags + first;
         float* const to = visible + first;
-        alignas(64) std::array<int, k_size> valid;
+        alignas(64) std::array<int, k_size> valid, blocked{};
         RTCRay16 traced;
         Inverse inverse;
         Inverse* const to_inverse = &inverse;
+        int any_left = 0;
+        int* const to_left = &any_left;
         multiversion<PacketLoop>(rays.origin.from(first), rays.direction.from(first), rays.length + first,
-                                 flags, &traced, to_inverse, valid.data());
-        if (std::ranges::all_of(valid, [](int each) { return each == 0; }) ||
-            !t.meets_any(traced, inverse, valid, rays.object)) {
-            std::fill_n(to, k_size, 1.0f);
-            continue;
-        }
+                                 flags, &traced, to_inverse, valid.data(), to_left);
+        if (any_left != 0 && cached)
+            multiversion<CachedBlockerLoop>(*cached, &traced, valid.data(), blocked.data(), to_left);
+        const bool is_traced = any_left != 0 && t.meets_any(traced, inverse, valid, rays.object);
         packet.near_edges = 0;
-        t.embree.occluded(t.scene, valid, let_pass, packet.context, traced);
-        // Embree marks a blocked ray by a negative end.
-        for (std::size_t i = 0; i < k_size; ++i) to[i] = valid[i] != 0 && traced.tfar[i] < 0 ? 0.0f : 1.0f;
+        packet.blocker = nullptr;
+        if (is_traced) t.embree.occluded(t.scene, valid, let_pass, packet.context, traced);
+        multiversion<VisibleLoop>(&traced, valid.data(), blocked.data(), to);
+        if (!is_traced) continue;
+        if (packet.blocker != nullptr) cached.emplace(*packet.blocker->mesh, packet.blocker_triangle);
         if (packet.near_edges != 0) {
             std::erase_if(hits,
                           [&](const TransparentHit& hit) { return (packet.near_edges >> hit.ray & 1) != 0; });

@@ -82,6 +82,8 @@ class CANDELA_EXPORT OcclusionTree {
     float least_margin() const noexcept;
     static constexpr float k_relative_margin = 0x1p-20f;
     bool has_transparent() const noexcept;
+    /// Whether there are so many triangles that sixteen rays take longer than may_block().
+    bool is_dense() const noexcept;
 
     /// Whether anything may block light on its way from the points in a box, on the surface of `object`, to a
     /// light in another box, or in that direction; `false` is certain. Takes no more time than a few rays.

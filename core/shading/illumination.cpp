@@ -7,6 +7,7 @@ module;
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -103,12 +104,15 @@ std::span<const float* const> SurfaceShader::visibility_of_data(const SurfacePoi
     std::fill_n(everywhere, points.filled, 1.0f);
     bool is_any_blocked = false;
     for (std::size_t k = 0; k < lights; ++k) {
-        if (!is_blocked_[k] || !visibility_->may_be_blocked(punctual_lights_[k])) {
+        const std::uint32_t packets = is_blocked_[k] ? visibility_->packets_to_trace(punctual_lights_[k]) : 0;
+        if (packets == 0) {
             weight_pointers_[k] = everywhere;
             continue;
         }
         is_any_blocked = true;
-        const ConstVec3Span left = visibility_->find(light_at(punctual_lights_[k], 0, points));
+        LightSample light = light_at(punctual_lights_[k], 0, points);
+        light.packets = packets;
+        const ConstVec3Span left = visibility_->find(light);
         float* const weights = &weights_[k * k_batch_size];
         std::copy_n(left.x, points.filled, weights);
         weight_pointers_[k] = weights;
@@ -133,10 +137,11 @@ std::optional<LightSample> SurfaceShader::illuminate(const RenderLight& source, 
     const bool is_blocked = has_shadows_ && source.casts_shadows;
     if (is_blocked && source.data) {
         const PunctualLight& light = source.data->samples[static_cast<std::size_t>(sample)];
-        const LightSample at = light_at(light, sample, points);
+        LightSample at = light_at(light, sample, points);
         multiversion<IntensityLoop>(light.diffuse, at.brightness, count, diffuse);
         multiversion<IntensityLoop>(light.specular, at.brightness, count, specular);
-        if (!visibility_->may_be_blocked(light)) return std::nullopt;
+        at.packets = visibility_->packets_to_trace(light);
+        if (at.packets == 0) return std::nullopt;
         return at;
     }
     if (is_blocked) std::fill_n(distance_.begin(), points.filled, std::numeric_limits<float>::infinity());

@@ -219,7 +219,7 @@ bool LightVisibility::set_points(const SurfaceModels& surface, const ShadedObjec
     points_ = &points;
     normal_ = normal;
     count_ = whole_vectors(points.count);
-    region_.reset();
+    has_region_ = has_packets_ = false;
     return true;
 }
 
@@ -237,7 +237,15 @@ void LightVisibility::aim(const LightSample& light, const ConstVec3Span& positio
     const float* const brightness = light.brightness != nullptr ? light.brightness : visible_.data();
     multiversion<AimLoop>(points, light.to_light, light.distance, brightness, count_, origin_.span(),
                           towards_.span(), length_.data(), flags_.data());
-    if (points_->has_triangle && !mesh_->is_faceted) lift_from_hollows(light.to_light, position);
+    for (std::size_t i = 0; i < count_ / OcclusionTree::k_packet; ++i) {
+        if ((light.packets >> i & 1) == 0)
+            std::fill_n(&flags_[i * OcclusionTree::k_packet], OcclusionTree::k_packet, 0u);
+    }
+    std::uint32_t all = 0;
+    for (std::size_t i = 0; i < count_; ++i) all |= flags_[i];
+    const bool any_from_below = (all & ShadowRays::k_from_below) != 0;
+    if (any_from_below && points_->has_triangle && !mesh_->is_faceted)
+        lift_from_hollows(light.to_light, position);
 }
 
 void LightVisibility::lift_from_hollows(const ConstVec3Span& to_light, const ConstVec3Span& position) {
@@ -266,7 +274,10 @@ ConstVec3Span LightVisibility::find(const LightSample& light) {
     const Vec3Span mean = mean_.span(), first = first_.span();
     clear(mean, count_);
     std::copy_n(light.brightness, count_, brightness_.begin());
-    const LightSample rest{light.to_light, light.distance, brightness_.data()};
+    const LightSample rest{.to_light = light.to_light,
+                           .distance = light.distance,
+                           .brightness = brightness_.data(),
+                           .packets = light.packets};
     for (int k = 0; k < k_first; ++k) add_sample(rest, samples - 1 - k);
     bool is_done = true;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -299,34 +310,10 @@ void LightVisibility::move_in_pixels(const LightSample& light, float right, floa
 LightSample LightVisibility::from_sample(const LightSample& light, int sample) {
     const auto [x, y] = pattern_[static_cast<std::size_t>(sample)];
     move_in_pixels(light, static_cast<float>(x - 8) / 16, static_cast<float>(y - 8) / 16);
-    return {std::as_const(direction_).span(), distance_.data(), light.brightness};
-}
-
-const Box& LightVisibility::region() {
-    if (region_) return *region_;
-    region_ = box_around(points_->position.span(), points_->count);
-    if (pattern_.size() == 1) return *region_;
-    const auto lower = [](Vec3 a, Vec3 b) {
-        return Vec3{std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
-    };
-    // Samples are within the corners of their pixels. The light does not matter.
-    const LightSample any{normal_, points_->coverage.data()};
-    for (const float right : {-0.5f, 0.5f}) {
-        for (const float below : {-0.5f, 0.5f}) {
-            move_in_pixels(any, right, below);
-            const Box moved = box_around(std::as_const(position_).span(), points_->count);
-            region_ = Box{lower(region_->low, moved.low), -lower(-region_->high, -moved.high)};
-        }
-    }
-    return *region_;
-}
-
-bool LightVisibility::may_be_blocked(const PunctualLight& light) {
-    if (light.w == 0) return tree_->may_block(region(), light.position, object_);
-    const auto reach = [](float u, float v) { return 0.5f * (std::abs(u) + std::abs(v)); };
-    const Vec3 extent{reach(light.extent_u.x, light.extent_v.x), reach(light.extent_u.y, light.extent_v.y),
-                      reach(light.extent_u.z, light.extent_v.z)};
-    return tree_->may_block(region(), Box{light.position - extent, light.position + extent}, object_);
+    return {.to_light = std::as_const(direction_).span(),
+            .distance = distance_.data(),
+            .brightness = light.brightness,
+            .packets = light.packets};
 }
 
 void LightVisibility::add_sample(const LightSample& light, int sample) {

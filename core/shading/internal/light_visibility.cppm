@@ -1,6 +1,7 @@
 // Which part of a light's intensity reaches each point of a batch: the stage between lights and reflection.
 module;
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -23,6 +24,7 @@ struct LightSample {
     const float* distance = nullptr;    // metres; infinite for a distant light
     const float* brightness = nullptr;  // zero where the light does not shine; null: it shines everywhere
     int varied = -1;                    // its number, if the light has others, whose positions vary as well
+    std::uint32_t packets = ~0u;        // a bit for each sixteen points at which it may be blocked
 };
 
 /// Traces rays from the points of a batch. Owns the batch's arrays: use one per thread.
@@ -38,8 +40,9 @@ class LightVisibility {
     bool set_points(const SurfaceModels& surface, const ShadedObject& object, const SurfacePoints& points,
                     const ConstVec3Span& normal);
 
-    /// Whether objects may block that light, which is data, at any of the points; `false` is certain.
-    bool may_be_blocked(const PunctualLight& light);
+    /// The packets of points at which objects may block that light, which is data: a bit for each; nothing
+    /// blocks it elsewhere.
+    std::uint32_t packets_to_trace(const PunctualLight& light);
 
     /// Writes the fraction of the light, per channel, that reaches each point; 1 where it does not shine.
     /// Valid until the next call. Where a fragment covers its pixel, the mean over the pixel's samples; a
@@ -64,8 +67,16 @@ class LightVisibility {
     /// Writes to position_, direction_ and distance_ the points, and the light from there, that many pixels
     /// to the right of and below the middle of their pixels.
     void move_in_pixels(const LightSample& light, float right, float below);
-    /// All places from which rays start.
-    const Box& region();
+    /// Of some points: of the places from which rays start, and of the shading normals.
+    struct Bounds {
+        Box position, normal;
+    };
+    /// Passes on all arrays of places from which rays start, and of corners around these.
+    template <class Visit>
+    void each_place(Visit visit);
+    void find_region();
+    void find_packets();
+    bool may_be_blocked(const PunctualLight& light, const Bounds& points) const;
     /// The light, and in position_ the points, from sample number `sample` of the pixels.
     LightSample from_sample(const LightSample& light, int sample);
     /// Traces from there, and adds the results to mean_.
@@ -93,7 +104,10 @@ class LightVisibility {
     AlignedVector<float> length_, visible_, offset_x_, offset_y_, distance_, brightness_;
     AlignedVector<std::uint32_t> flags_;
     std::vector<Crossing> crossings_;
-    std::optional<Box> region_;  // once asked for
+    static constexpr std::size_t k_packets = k_batch_size / OcclusionTree::k_packet;
+    bool has_region_ = false, has_packets_ = false;  // found once asked for
+    Bounds region_;                                  // of all points
+    std::array<Bounds, k_packets> packets_;
 };
 
 }  // namespace candela
