@@ -38,7 +38,7 @@ struct RenderLight {
     AmbientOcclusion ambient_occlusion{};
 
     /// Whether a sample is more than a point, so that its light has penumbras.
-    bool has_extent() const;
+    CANDELA_EXPORT bool has_extent() const;
 };
 
 /// Creates the light, and asks it once whether it is data. Throws Error, naming the plugin.

@@ -99,12 +99,6 @@ class TurnedLight final : public candela::Light {
     const std::optional<float>& way_;
 };
 
-bool has_extent(const std::optional<candela::LightData>& data) {
-    return data && std::ranges::any_of(data->samples, [](const candela::PunctualLight& sample) {
-               return sample.extent_u != Vec3{} || sample.extent_v != Vec3{};
-           });
-}
-
 /// The data of a light with an extent, moved by a small fraction of it: its samples vary within the extent
 /// anyway, from pixel to pixel, which only the renderer can do. Three ways lie in no common plane.
 candela::LightData moved(candela::LightData data, float way) {
@@ -129,7 +123,7 @@ class Mover {
         scene_.image.samples = 1;
         const bool varies = scene.occlusion && scene.shadow_pattern == candela::ShadowPattern::varied;
         for (candela::RenderLight& source : scene_.lights) {
-            has_penumbras_.push_back(varies && source.casts_shadows && has_extent(source.data));
+            has_penumbras_.push_back(varies && source.casts_shadows && source.has_extent());
             auto turned =
                 std::make_unique<TurnedLight>(std::move(source.light), std::move(source.data), way_);
             source.data.reset();
