@@ -294,7 +294,7 @@ OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::m
 }
 
 Box OcclusionTree::starting(const Box& points) const noexcept {
-    const float margin = 4 * least_margin();
+    const float margin = 6 * least_margin();  // above, towards the light, and inward at vertices
     const Box wide = enlarged(points);
     return {wide.low - Vec3{margin, margin, margin}, wide.high + Vec3{margin, margin, margin}};
 }
