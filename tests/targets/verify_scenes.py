@@ -1,7 +1,6 @@
 """verify_scenes.py CANDELA SCRATCH NUMBER [TARGET]: runs `candela verify` on one of the scenes of scenes.py.
 verify_scenes.py CANDELA SCRATCH textures-NUMBER [TARGET]: the same for texture_scenes.py.
 verify_scenes.py CANDELA SCRATCH shadows-NUMBER [TARGET]: the same for shadow_scenes.py.
-verify_scenes.py CANDELA SCRATCH shadow-case-NUMBER [TARGET]: the same for shadow_cases.py.
 verify_scenes.py CANDELA SCRATCH NUMBER TARGET exact: only what a target expresses with its own models, to within 1/255.
 verify_scenes.py CANDELA SCRATCH NUMBER three own: only what three.js draws itself, without kernels.
 verify_scenes.py CANDELA SCRATCH pairs: checks that the scenes of scenes.py cover all pairs."""
@@ -14,7 +13,6 @@ import subprocess
 import sys
 
 import scenes
-import shadow_cases
 import shadow_scenes
 import texture_scenes
 
@@ -43,12 +41,10 @@ def scene_of(catalogue, what, is_exact):
     """The text of a scene, and the files that it names."""
     if what.startswith("shadows-"):
         number = int(what.removeprefix("shadows-"))
-        return shadow_scenes.scene_text(catalogue.factors()["reflection"], number, is_exact), shadow_scenes.files()
+        return shadow_scenes.scene_text(catalogue.factors(), number, is_exact), shadow_scenes.files()
     if what.startswith("textures-"):
         number = int(what.removeprefix("textures-"))
         return texture_scenes.scene_text(catalogue.factors()["reflection"], number), texture_scenes.files()
-    if what.startswith("shadow-case-"):
-        return shadow_cases.scene_text(int(what.removeprefix("shadow-case-"))), shadow_cases.files()
     number = int(what)
     return scenes.scene_text(catalogue, scenes.scenes(catalogue)[number], number), {"icosahedron.obj": scenes.OBJ.encode()}
 
