@@ -153,7 +153,7 @@ def compared(candela, seed, folder):
         subprocess.run(command, cwd=folder, check=True, capture_output=True, timeout=120)
 
     run(candela, "render", "scene.toml", "-o", "ours.ppm", "--terms", ",".join(terms))
-    # Open surfaces with smooth normals are the only approximation.
+    # Open surfaces and hollows with smooth normals are the only approximations.
     run(candela, "generate", "scene.toml", "--target", "povray", "-o", ".", "--approximate")
     run("povray", "scene.ini", "+FP8", "+Oother.ppm")
     ours, other = read_ppm(folder / "ours.ppm"), read_ppm(folder / "other.ppm")

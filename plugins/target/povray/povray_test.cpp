@@ -343,12 +343,19 @@ type = "torus"
 major_radius = 0.3
 minor_radius = 0.1
 receives_shadows = false
+[[object]]
+name = "tire"
+type = "torus"
+major_radius = 0.3
+minor_radius = 0.1
+position = [-1, 0, 0]
 )";
     const CommandResult refused = generate(folder, scene);
     CHECK(refused.exit_code == 1);
-    for (const char* const sentence : {"light 'sky' is not darkened by what is near",
-                                       "light 'tube' has as many steps in its penumbras as it has samples",
-                                       "object pot is open", "object ring is not convex"}) {
+    for (const char* const sentence :
+         {"light 'sky' is not darkened by what is near",
+          "light 'tube' has as many steps in its penumbras as it has samples", "object pot is open",
+          "object ring is not convex", "object tire is hollow in places"}) {
         INFO(sentence);
         CHECK(holds(refused.err, sentence));
     }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <string>
 
@@ -47,6 +49,18 @@ bool has_smooth_normals(const ExportedMesh& mesh, ConstVec3Span normal) {
     return false;
 }
 
+/// Whether normals lean towards each other along an edge: the surface that the triangles stand for rises
+/// there towards a light that its triangles do not face.
+bool is_hollow(const ExportedMesh& mesh, ConstVec3Span normal) {
+    constexpr float k_bend = 1e-3f;
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const std::uint32_t from = mesh.indices[i], to = mesh.indices[i % 3 == 2 ? i - 2 : i + 1];
+        const Vec3 edge = mesh.position[to] - mesh.position[from];
+        if (dot(normal[to] - normal[from], edge) < -k_bend * length(edge)) return true;
+    }
+    return false;
+}
+
 }  // namespace
 
 bool has_unblocked_lights(const ExportedScene& scene, const ExportedObject& object) {
@@ -78,10 +92,15 @@ void approximate_shadows(const ExportedScene& scene, std::size_t index, const Ex
     };
     if (has_unblocked_lights(scene, object) && !is_convex(mesh))
         say("is not convex, so that unblocked light is blocked between its parts");
-    const bool is_smooth = scene.shadings[object.shading].rate != ShadingRate::face &&
-                           has_smooth_normals(mesh, mesh.normals[mesh.normals_of[object.shading]]);
-    if (object.casts_shadows && object.receives_shadows && !mesh.is_solid && is_smooth)
+    if (!object.casts_shadows || !object.receives_shadows ||
+        scene.shadings[object.shading].rate == ShadingRate::face)
+        return;
+    const ConstVec3Span normal = mesh.normals[mesh.normals_of[object.shading]];
+    if (!mesh.is_solid && has_smooth_normals(mesh, normal))
         say("is open, and its own shadow begins where its triangles turn away from a light, not its normals");
+    if (mesh.is_solid && is_hollow(mesh, normal))
+        say("is hollow in places, where its own shadow begins where its normals turn away from a light, "
+            "not its triangles");
 }
 
 }  // namespace candela::povray_target
