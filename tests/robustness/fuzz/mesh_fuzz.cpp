@@ -1,5 +1,5 @@
 // Arbitrary bytes as a shape plugin's behaviour: layouts, indices and numbers of any kind. If build_mesh()
-// accepts the result, it must be a valid mesh, and render.
+// accepts the result, it must be a valid mesh, and render, without shadows and with those that it casts.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -163,11 +163,21 @@ void render_small(candela::RenderScene& scene, Bytes& bytes) {
     constexpr std::array k_samples = {1, 4, 8, 16};
     scene.image = {.width = 40, .height = 24, .samples = k_samples[bytes.at_most(3)], .background = {}};
     const auto pixels = static_cast<candela::PixelType>(bytes.at_most(1));
-    candela::Film film(scene.image.width, scene.image.height, pixels, candela::ColorEncoding::srgb);
-    candela::render(scene, film, {.threads = 1, .tile_size = 16 * static_cast<int>(1 + bytes.at_most(1))});
-    for (const float channel : film.view().reals) {
-        fuzz::require(std::isfinite(channel), "a pixel is not finite");
-    }
+    const int tile_size = 16 * static_cast<int>(1 + bytes.at_most(1));
+    const auto render = [&] {
+        candela::Film film(scene.image.width, scene.image.height, pixels, candela::ColorEncoding::srgb);
+        candela::render(scene, film, {.threads = 1, .tile_size = tile_size});
+        for (const float channel : film.view().reals) {
+            fuzz::require(std::isfinite(channel), "a pixel is not finite");
+        }
+    };
+    render();
+    const candela::Mesh& mesh = scene.objects[0].mesh;
+    const std::array occluders = {
+        candela::Occluder{.mesh = &mesh, .is_solid = mesh.closed && !mesh.one_sided}};
+    scene.occlusion.emplace(occluders);
+    scene.lights[0].ambient_occlusion = {.rays = 4, .distance = 1};
+    render();
 }
 
 }  // namespace

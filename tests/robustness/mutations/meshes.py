@@ -3,7 +3,7 @@ invalid UTF-8 or terminal control characters.
 
     meshes.py CANDELA [--count N] [--kind ply|stl|obj|gltf|glb] [--seed S] [--keep FOLDER] [--jobs J]
 
-N mutants of each format, made from the files of tests/robustness/samples.
+N mutants of each format, made from the files of tests/robustness/samples, and drawn with the shadows that they cast.
 """
 import sys
 from pathlib import Path
@@ -21,8 +21,21 @@ look_at = [0, 0, 0]
 model = "phong"
 [reflection]
 model = "ward"
+[room]
+width = 1e6
+height = 1e6
+depth = 1e6
+[image]
+width = 32
+height = 24
+[shadows]
+enabled = true
 [[light]]
 type = "ambient"
+ambient_occlusion_rays = 4
+[[light]]
+type = "directional"
+direction = [-1, -2, -3]
 [[object]]
 type = "mesh"
 file = "{}"
@@ -51,7 +64,7 @@ def problem_of(candela: str, directory: Path, form: str, chance, _index: int) ->
     name = f"a.{form}"
     (directory / name).write_bytes(mutation.mutated(chance.choice(SEEDS[form]), SEEDS[form], chance, WORDS))
     (directory / "scene.toml").write_text(SCENE.format(name))
-    return mutation.run([candela, "check", "scene.toml"], directory, codes=(0, 1, 3))[1]
+    return mutation.run([candela, "render", "scene.toml", "-o", "a.ppm"], directory, codes=(0, 1, 3))[1]
 
 
 if __name__ == "__main__":
