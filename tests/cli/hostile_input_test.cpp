@@ -1,5 +1,7 @@
 // Input that nobody writes on purpose, except to do harm, gives an error with a place, in bounded time and
 // memory. The inputs are only as large as necessary.
+#include <fmt/format.h>
+
 #include <catch2/catch_test_macros.hpp>
 #include <filesystem>
 #include <string>
@@ -32,9 +34,11 @@ CommandResult check(const std::string& text, const std::vector<std::string>& mor
     return directory.run("check a.toml", more);
 }
 
-/// A limit of 4 GB of address space; not for sanitizers, which reserve terabytes.
-CommandResult in_four_gigabytes(const std::string& arguments) {
-    return run_program({"sh", "-c", "ulimit -v 4000000; exec " CANDELA_TEST_COMMAND " " + arguments});
+/// A limit on the address space; not for sanitizers, which reserve terabytes.
+CommandResult in_megabytes(int megabytes, const std::string& arguments) {
+    return run_program(
+        {"sh", "-c",
+         fmt::format("ulimit -v {}; exec " CANDELA_TEST_COMMAND " {}", megabytes * 1000, arguments)});
 }
 
 }  // namespace
@@ -144,13 +148,73 @@ TEST_CASE("a picture, and a shape, that do not fit into memory are errors that s
     const Folder directory;
     // A format that is not written by rows.
     const std::string output = " -o " + (directory / "a.pfm").string();
-    expect(in_four_gigabytes("render --width 65536 --height 65536" + output), 1,
+    expect(in_megabytes(4000, "render --width 65536 --height 65536" + output), 1,
            {"a picture of 65536 x 65536 pixels needs 51.5 GB of memory; ", " are available"});
     const fs::path scene = directory.write(
         "scene.toml", k_head + "[[object]]\ntype = \"sphere\"\nsegments = 8192\nposition = [2, 0, 0]\n");
-    expect(in_four_gigabytes("render " + scene.string() + output), 1,
+    expect(in_megabytes(4000, "render " + scene.string() + output), 1,
            {"scene.toml:9:1: error: object number 0: a shape of 67", " triangles needs ", " GB of memory; "});
     CHECK_FALSE(directory.has("a.pfm"));
+}
+
+TEST_CASE(
+    "shadows of ten million triangles take 120 bytes each; with less memory, an error says how much they "
+    "need",
+    "[whole]") {
+    if (k_has_shadow_memory) SKIP("sanitizers need more address space");
+    const Folder directory;
+    // Four balls of 2.5 million triangles each, above a floor.
+    std::string text = k_head +
+                       "[shadows]\nenabled = true\n[[light]]\ntype = \"point\"\nposition = [0, 4, 0]\n"
+                       "[[object]]\ntype = \"cube\"\nscale = [4, 0.1, 4]\nposition = [0, -1, 0]\n";
+    for (const double x : {-1.5, -0.5, 0.5, 1.5})
+        text += fmt::format(
+            "[[object]]\ntype = \"sphere\"\nradius = 0.4\nsegments = 1584\nposition = [{}, 0, 0]\n", x);
+    const fs::path scene = directory.write("scene.toml", text);
+    const auto rendered = [&](int megabytes, const std::string& options) {
+        return in_megabytes(megabytes,
+                            fmt::format("render {} --width 64 --height 48 --threads 2 -o {}/a.ppm {}",
+                                        scene.string(), directory.path().string(), options));
+    };
+    expect(rendered(2300, ""), 0);
+    const std::string with = directory.read("a.ppm");
+    // 700 MB for the triangles fit, and their tree does not.
+    expect(rendered(1600, "--no-shadows"), 0);
+    CHECK(with != directory.read("a.ppm"));
+    fs::remove(directory / "a.ppm");
+    expect(
+        rendered(1600, ""), 1,
+        {"shadows: the tree of the triangles that cast shadows needs 1.2 GB of memory; ", " are available"});
+    CHECK_FALSE(directory.has("a.ppm"));
+}
+
+TEST_CASE(
+    "a mesh with a corner that is not finite or too far away is an error, also where it would cast shadows") {
+    const Folder d;
+    d.write("scene.toml", k_head + "[shadows]\nenabled = true\n" + k_light +
+                              "[[object]]\ntype = \"mesh\"\nfile = \"a.obj\"\n"
+                              "[[object]]\ntype = \"mesh\"\nfile = \"a.ply\"\n");
+    const auto with = [&](const std::string& number) {
+        d.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 " + number + " 0\nf 1 2 3\n");
+        d.write(
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+            "2 0 0\n3 0 0\n2 " +
+                number + " 0\n3 0 1 2\n");
+        return d.run("render scene.toml -o a.ppm");
+    };
+    for (const char* const number : {"nan", "-nan", "inf", "-inf"}) {
+        INFO(number);
+        expect(with(number), 1,
+               {"scene.toml:14:1: error: object number 0: ", "a.obj' line 3: ", " is not a finite number",
+                "scene.toml:17:1: error: object number 1: ", "a.ply' has a face with the corner [2, ",
+                "positions must be finite"});
+        CHECK_FALSE(d.has("a.ppm"));
+    }
+    expect(with("1e39"), 1, {"object number 0: ", "object number 1: ", "non-finite"});
+    expect(with("1e38"), 3, {"object number 0: ", "object number 1: ", "is more than 1e+09 m away"});
+    expect(with("1"), 0);
 }
 
 TEST_CASE("a library that does not fit into the address space causes a message") {

@@ -338,3 +338,51 @@ TEST_CASE("a decal on a floor, and boxes side by side, do not shadow one another
         CHECK(pair.bright() > 1000);
     }
 }
+
+TEST_CASE("triangles without area and needles in a mesh file block no light") {
+    Studio studio;
+    studio.add_file("floor.obj", "v -6 -1 6\nv 6 -1 6\nv 6 -1 -6\nv -6 -1 -6\nf 1 2 3 4\n");
+    const std::string open = grid_obj(6);
+    const std::string closed =
+        "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv 0 0 1\n"
+        "f 4 3 2 1\nf 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n";
+    Random random(9);
+    for (const std::string& sound : {open, closed}) {
+        // Around and between the sound triangles: points, lines, and needles a millionth as wide as they are
+        // long, all of them twice; and triangles that have one corner twice.
+        std::string degenerate = sound;
+        for (int i = 0; i < 200; ++i) {
+            const Vec3 a = random.point(1.5), b = a + random.point(1), c = a + 0.3f * (b - a);
+            const Vec3 near = c + 1e-6f * random.direction();
+            degenerate +=
+                fmt::format("v {:.9g} {:.9g} {:.9g}\nv {:.9g} {:.9g} {:.9g}\nv {:.9g} {:.9g} {:.9g}\n", a.x,
+                            a.y, a.z, b.x, b.y, b.z, i % 2 == 0 ? c.x : near.x, i % 2 == 0 ? c.y : near.y,
+                            i % 2 == 0 ? c.z : near.z);
+            degenerate += "f -3 -2 -1\nf -3 -3 -3\nf -3 -2 -2\nf -3 -2 -1\n";
+        }
+        degenerate += "f 1 1 2\nf 2 3 2\nf 5 5 5\n";
+        for (const char* const shading : k_rates) {
+            const auto rendered = [&](const std::string& obj) {
+                studio.add_file("mesh.obj", obj);
+                return studio.render(
+                    view({2.5f, 1, 4}, {0, -0.5f, 0}, 30, 160, 120) + models(shading, "lambert") +
+                    point({0.7f, 4, 1.5f}) + directional(normalized(Vec3{-0.4f, 1, 0.3f})) +
+                    "[[object]]\ntype = \"mesh\"\nfile = \"floor.obj\"\nshading = \"phong\"\n"
+                    "[[object]]\ntype = \"mesh\"\nfile = \"mesh.obj\"\n");
+            };
+            const auto pair = rendered(sound), with = rendered(degenerate);
+            INFO(shading << (sound == open ? ", open" : ", closed"));
+            CHECK(pair.darkened() > 200);
+            int seen = 0, different = 0;
+            for (std::size_t i = 0; i < pair.lit.size(); ++i) {
+                if (with.lit[i] != pair.lit[i]) {
+                    ++seen;
+                } else if (with.shadowed[i] != pair.shadowed[i]) {
+                    ++different;
+                }
+            }
+            CHECK(seen <= 1);  // a needle now and then covers the middle of a pixel
+            CHECK(different == 0);
+        }
+    }
+}
