@@ -137,10 +137,7 @@ render "$model/vase.obj" --samples 16 -o "$out/imported.png"
 page=$(mktemp -d)
 trap 'rm -rf "$sheet" "$model" "$page"' EXIT
 "$root/build/release/bin/candela" generate "$root/docs/examples/still-life.toml" --target webgl --models phong,lambert,flat,gouraud,ggx,toon -o "$page" 2>/dev/null
-sandbox=()
-[ "$(id -u)" -ne 0 ] || sandbox=(--no-sandbox)
-chromium --headless=new "${sandbox[@]}" --use-angle=swiftshader --enable-unsafe-swiftshader --hide-scrollbars --window-size=1400,900 \
-    --user-data-dir="$page/profile" --virtual-time-budget=8000 --screenshot="$out/page.png" "file://$page/scene.html" 2>/dev/null
+/usr/bin/python3 -B "$root/tests/page/page_picture.py" "$page/scene.html" "$out/page.png"
 
 "$root/build/release/bin/candela" plot phong:shininess=20,ks=0.5,kd=0.3 blinn-phong:shininess=80,ks=0.5,kd=0.3 ggx:roughness=0.2,ks=0.2,ior=4,kd=0.3 \
     -o "$out/lobes.svg"

@@ -115,6 +115,13 @@ class Browser:
         """Waits for asynchronous effects: the picture on the screen, the clipboard, a new fragment."""
         self.driver.execute_async_script("setTimeout(arguments[1], 1000 * arguments[0])", seconds)
 
+    def wait_for_pictures(self, most_seconds=600):
+        """Waits until the page shows whole pictures in place of drafts, which are coarser where they take long, as with shadows."""
+        self.rest(1)
+        self.driver.set_script_timeout(most_seconds)
+        self.wait_for("""[...document.querySelectorAll("#picture-canvas, #outside-canvas, .pane")].every(
+            ({ width, style }) => width === Math.round(parseFloat(style.width) * devicePixelRatio))""")
+
     def unfold_all(self):
         """Opens all parts; their contents are made by an event that comes later."""
         self.driver.execute_async_script("""
