@@ -7,7 +7,7 @@ import json
 import random
 import subprocess
 
-SCENES = 14
+SCENES = 16
 OBJECTS = 8  # in two rows; many objects in few scenes, since starting compilers and browsers takes most of the time
 COLUMNS = 4
 
