@@ -66,6 +66,7 @@ LIGHTS = {
 }
 MATERIALS = {
     "ashikhmin-shirley": "ks = 0.2\nexponent_u = 10\nexponent_v = 100",
+    "beckmann": "kd = 0.6\nks = 0.4\nroughness = 0.25\nior = 3",
     "blinn-phong": "kd = 0.6\nks = 0.4\nshininess = 80",
     "cook-torrance": "kd = 0.6\nks = 0.4\nroughness = 0.25\nior = 3",
     "dielectric": "ior = 1.5\ndepth = 2",
