@@ -74,6 +74,7 @@ MATERIALS = {
     "ggx": "kd = 0.6\nks = 0.4\nroughness = 0.25\nior = 3",
     "gooch": "kd = 0.7\nks = 0.3\nwarm = [80, 80, 0]\ncool = [0, 0, 140]",
     "half-lambert": "kd = 0.7\nexponent = 2",
+    "kajiya-kay": "kd = 0.4\nks = 0.4\nshininess = 40",
     "lambert": "kd = 0.7",
     "minnaert": "kd = 0.7\nk = 0.6",
     "oren-nayar": "kd = 0.7\nsigma = 40",
