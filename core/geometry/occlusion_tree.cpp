@@ -294,7 +294,7 @@ OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::m
 }
 
 Box OcclusionTree::starting(const Box& points) const noexcept {
-    const float margin = 6 * least_margin();  // above, towards the light, and inward at vertices
+    const float margin = 8 * least_margin();  // above the surface, towards the light, and inward
     const Box wide = enlarged(points);
     return {wide.low - Vec3{margin, margin, margin}, wide.high + Vec3{margin, margin, margin}};
 }
@@ -312,6 +312,7 @@ OcclusionTree& OcclusionTree::operator=(OcclusionTree&&) noexcept = default;
 OcclusionTree::~OcclusionTree() = default;
 
 float OcclusionTree::least_margin() const noexcept { return k_relative_margin * tree_->largest; }
+bool OcclusionTree::is_solid(std::uint32_t object) const noexcept { return tree_->surfaces[object].is_solid; }
 bool OcclusionTree::is_dense() const noexcept { return tree_->is_dense; }
 bool OcclusionTree::has_transparent() const noexcept { return tree_->has_transparent; }
 

@@ -82,6 +82,8 @@ class CANDELA_EXPORT OcclusionTree {
     float least_margin() const noexcept;
     static constexpr float k_relative_margin = 0x1p-20f;
     bool has_transparent() const noexcept;
+    /// Whether light is blocked only where it enters that object.
+    bool is_solid(std::uint32_t object) const noexcept;
     /// Whether there are so many triangles that sixteen rays take longer than may_block().
     bool is_dense() const noexcept;
 

@@ -40,15 +40,14 @@ struct AimLoop {
         float margin;   // at least
         bool from_all;  // also where the shading normal faces away
         std::uint32_t count;
-        Vec3 middle;   // of the mesh
-        float inward;  // how many margins along the surface towards it
+        ConstVec3Span inside;  // of the triangle, or of the mesh
+        float inward;          // how many margins along the surface towards it
     };
 
     CANDELA_BATCH_LOOP static void run(Points points, ConstVec3Span to_light, const float* distance,
                                        const float* brightness, std::size_t count, Vec3Span origin,
                                        Vec3Span direction, float* length, std::uint32_t* flags) {
         const float always = points.from_all ? 1.0f : 0.0f;
-        const vec3 middle(points.middle.x, points.middle.y, points.middle.z);
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
             const vec3 p = kernel::load(points.position, i);
@@ -61,8 +60,8 @@ struct AimLoop {
             // triangle faces: otherwise its edges would show.
             const float cosine = kernel::dot(kernel::load(points.normal, i), l);
             const bool is_below = kernel::min(kernel::dot(n, l), cosine) < 0.0f;
-            const vec3 to_middle = kernel::normalize(middle - p);
-            const vec3 along = to_middle - n * kernel::dot(n, to_middle);
+            const vec3 to_inside = kernel::normalize(kernel::load(points.inside, i) - p);
+            const vec3 along = to_inside - n * kernel::dot(n, to_inside);
             const vec3 shift =
                 (n * 2.0f - l) * (is_below ? -margin : margin) + along * (points.inward * margin);
             kernel::store(origin, i, p + shift);
@@ -194,7 +193,7 @@ struct ScaleLoop {
 
 LightVisibility::LightVisibility() {
     for (Vec3Arrays* const arrays :
-         {&origin_, &towards_, &direction_, &colored_, &mean_, &position_, &first_})
+         {&inside_, &origin_, &towards_, &direction_, &colored_, &mean_, &position_, &first_})
         arrays->resize(k_batch_size);
     for (AlignedVector<float>* const array :
          {&length_, &visible_, &offset_x_, &offset_y_, &distance_, &brightness_})
@@ -220,7 +219,24 @@ bool LightVisibility::set_points(const SurfaceModels& surface, const ShadedObjec
     normal_ = normal;
     count_ = whole_vectors(points.count);
     has_region_ = has_packets_ = false;
+    find_inside();
     return true;
+}
+
+void LightVisibility::find_inside() {
+    // The least angle between an edge of a triangle and the way to its centroid is often some 18 degrees:
+    // four margins lead away from the edge by more than the one that leads back, towards the light.
+    inward_ = !points_->has_triangle ? 2.0f : tree_->is_solid(object_) ? 0.0f : 4.0f;
+    if (inward_ == 0) return;
+    const Vec3Span inside = inside_.span();
+    const Vec3 middle = 0.5f * (mesh_->bounds.low + mesh_->bounds.high);
+    for (std::size_t i = 0; i < count_; ++i) inside.set(i, middle);
+    for (std::size_t i = 0; points_->has_triangle && i < points_->count; ++i) {
+        Vec3 sum{};
+        for (std::size_t k = 0; k < 3; ++k)
+            sum = sum + mesh_->vertices[mesh_->indices[3 * std::size_t{points_->triangle[i]} + k]].position;
+        inside.set(i, 1 / 3.0f * sum);
+    }
 }
 
 void LightVisibility::aim(const LightSample& light, const ConstVec3Span& position) {
@@ -231,8 +247,8 @@ void LightVisibility::aim(const LightSample& light, const ConstVec3Span& positio
                                  .margin = tree_->least_margin(),
                                  .from_all = lights_below_horizon_,
                                  .count = static_cast<std::uint32_t>(points_->count),
-                                 .middle = 0.5f * (mesh_->bounds.low + mesh_->bounds.high),
-                                 .inward = points_->has_triangle ? 0.0f : 2.0f};
+                                 .inside = std::as_const(inside_).span(),
+                                 .inward = inward_};
     if (light.brightness == nullptr) std::fill_n(visible_.begin(), count_, 1.0f);
     const float* const brightness = light.brightness != nullptr ? light.brightness : visible_.data();
     multiversion<AimLoop>(points, light.to_light, light.distance, brightness, count_, origin_.span(),

@@ -227,6 +227,34 @@ TEST_CASE("light does not leak into a closed room from outside") {
     CHECK(bright > 300'000);
 }
 
+TEST_CASE("the edges of a room are lit also where the middles of pixels are exactly on them") {
+    Studio studio;
+    const std::string view =
+        "observer = { position = [0.0, 0.0, 0.9], look_at = [0.0, 0.0, 0.0], fov = 80.0 }\n"
+        "image = { width = 128, height = 128 }\nshading = { model = \"phong\" }\n"
+        "reflection = { model = \"lambert\" }\nshadows = { enabled = true }\n"
+        "constraints = { overlap = \"allow\" }\n";
+    // As a cube that encloses the observer, and as a file, whose left half has other diagonals.
+    studio.add_file("room.obj",
+                    "v -1 -1 -1\nv 1 -1 -1\nv 1 1 -1\nv -1 1 -1\nv -1 -1 1\nv 1 -1 1\nv 1 1 1\nv -1 1 1\n"
+                    "f 1 2 3 4\nf 2 6 7 3\nf 1 5 6 2\nf 3 7 8 4\nf 8 5 1\nf 8 1 4\n");
+    for (const char* const room :
+         {R"(type = "cube", size = 2.0, encloses = true)", R"(type = "mesh", file = "room.obj")"}) {
+        const std::string object = fmt::format("object = [{{ {} }}]\n", room);
+        const auto inside =
+            studio.render(view + object + R"(light = [{ type = "point", position = [0.0, 0.3, 0.0] }])");
+        CHECK(inside.bright() == 128 * 128);
+        CHECK(inside.darkened() == 0);
+        for (const char* const place : {"0, 0.3, -1.5", "-1.5, 0.3, 0", "0.2, 1.5, 0", "-1.2, -1.2, -1.2"}) {
+            INFO(room << " " << place);
+            CHECK(studio
+                      .render(view + object +
+                              fmt::format(R"(light = [{{ type = "point", position = [{}] }}])", place))
+                      .left() == 0);
+        }
+    }
+}
+
 TEST_CASE("light does not leak through the walls of a hollow smooth mesh") {
     Studio studio;
     Random random(8);

@@ -64,6 +64,7 @@ class LightVisibility {
     /// Like find(), from given positions of the points.
     ConstVec3Span trace(const LightSample& light, const ConstVec3Span& position);
     void aim(const LightSample& light, const ConstVec3Span& position);
+    void find_inside();
     /// Writes to position_, direction_ and distance_ the points, and the light from there, that many pixels
     /// to the right of and below the middle of their pixels.
     void move_in_pixels(const LightSample& light, float right, float below);
@@ -98,6 +99,8 @@ class LightVisibility {
     ConstVec3Span normal_;
     std::size_t count_ = 0;  // in whole vectors
 
+    Vec3Arrays inside_;                // of each point's triangle; filled if inward_ is not zero
+    float inward_ = 0;                 // by how many margins rays start further inside
     Vec3Arrays origin_, towards_;      // of the rays
     Vec3Arrays position_, direction_;  // of a pixel's sample; directions of ambient light
     Vec3Arrays colored_, mean_, first_;
