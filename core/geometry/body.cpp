@@ -105,8 +105,14 @@ struct Body::Surface {
         return result;
     }
 
+    std::vector<Vector3d> unmoved;  // the positions before, of a hollow body
+
     using Tree = Eigen::KdBVH<double, 3, std::uint32_t>;
 
+    /// A hollow body with its surface where it was: solid bodies may touch it on both sides. Made on demand.
+    /// Any thread.
+    const Surface& at_rest() const;
+    void enclose();
     /// The tree of the triangles. Made on demand, because boxes separate most bodies. Any thread.
     const Tree& tree() const;
     void draw_inwards();
@@ -116,9 +122,31 @@ struct Body::Surface {
     bool contains(const Vector3d& point) const;
 
   private:
-    mutable std::once_flag has_tree_;
+    mutable std::once_flag has_tree_, has_at_rest_;
     mutable Tree tree_;
+    mutable std::unique_ptr<Surface> at_rest_;
 };
+
+/// Finds the boxes.
+void Body::Surface::enclose() {
+    box.setEmpty();
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) box.extend(box_of(i));
+    oriented = oriented_box(used(position, triangles));
+}
+
+const Body::Surface& Body::Surface::at_rest() const {
+    std::call_once(has_at_rest_, [this] {
+        at_rest_ = std::make_unique<Surface>();
+        at_rest_->position = unmoved;
+        at_rest_->triangles = triangles;
+        at_rest_->parts = parts;
+        at_rest_->margin = margin;
+        at_rest_->closed = closed;
+        at_rest_->solidity = solidity;
+        at_rest_->enclose();
+    });
+    return *at_rest_;
+}
 
 const Body::Surface::Tree& Body::Surface::tree() const {
     std::call_once(has_tree_, [this] {
@@ -267,17 +295,16 @@ Body::Body(ConstVec3Span position, std::size_t vertex_count, std::span<const std
         parts.join(t[0], t[2]);
     }
     if (s.triangles.empty()) return;
+    if (solidity == Solidity::hollow) s.unmoved = s.position;
     s.draw_inwards();
 
     std::vector<bool> seen(vertex_count);
-    s.box.setEmpty();
-    for (std::uint32_t i = 0; i < s.triangles.size(); ++i) {
-        const std::uint32_t part = parts.of(s.triangles[i][0]);
+    for (const auto& triangle : s.triangles) {
+        const std::uint32_t part = parts.of(triangle[0]);
         if (!seen[part]) s.parts.push_back(part);
         seen[part] = true;
-        s.box.extend(s.box_of(i));
     }
-    s.oriented = oriented_box(used(s.position, s.triangles));
+    s.enclose();
 }
 
 Body::Body(Body&&) noexcept = default;
@@ -288,8 +315,15 @@ bool Body::contains(Vec3 point) const { return surface_->contains(vector(point))
 
 bool overlap(const Body& a_body, const Body& b_body) {
     using Surface = Body::Surface;
-    const Surface& a = *a_body.surface_;
-    const Surface& b = *b_body.surface_;
+    const bool is_one_solid = a_body.surface_->solidity != b_body.surface_->solidity;
+    const auto surface_of = [&](const Body& body) -> const Surface& {
+        const Surface& own = *body.surface_;
+        const bool is_at_rest = is_one_solid && own.solidity == Solidity::hollow && !own.triangles.empty();
+        return is_at_rest ? own.at_rest() : own;
+    };
+    if (!a_body.surface_->box.intersects(b_body.surface_->box)) return false;
+    const Surface& a = surface_of(a_body);
+    const Surface& b = surface_of(b_body);
     if (a.triangles.empty() || b.triangles.empty() || !a.box.intersects(b.box)) return false;
     // Equal bodies next to each other have planes in common. A shift far smaller than the margins, in an
     // arbitrary direction, separates them, so that only crossings of an edge with a face remain to be found.

@@ -42,7 +42,8 @@ enum class Solidity : bool { solid, hollow };
 /// The space enclosed by a surface of triangles. Immutable; any thread.
 ///
 /// Touching bodies do not overlap, and floats round, so the surface is shrunk by a hundred-thousandth of the
-/// body's size (less for thin ones) before any query.
+/// body's size (less for thin ones) before any query, except that of a hollow body for overlap with a solid
+/// one, which may touch it from either side.
 class CANDELA_EXPORT Body {
   public:
     /// Triangles are counter-clockwise seen from outside; a closed surface with the opposite orientation is

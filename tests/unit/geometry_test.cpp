@@ -250,6 +250,27 @@ TEST_CASE(
     CHECK(overlap(room, body_of(cube({}, 3))));
 }
 
+TEST_CASE("a solid body may touch a hollow one from inside and from outside, at any size and place") {
+    for (const float scale : {1e-3f, 1.0f, 1e4f}) {
+        for (const Vec3 place : {Vec3{}, Vec3{3, -7, 5}}) {
+            const Body room = body_of(cube(scale * place, 2 * scale), candela::Solidity::hollow);
+            const auto overlaps = [&](Vec3 position, float size) {
+                const Body other = body_of(cube(scale * (place + position), size * scale));
+                const bool found = overlap(room, other);
+                CHECK(overlap(other, room) == found);
+                return found;
+            };
+            INFO(scale << " at " << place.x);
+            CHECK_FALSE(overlaps({0.1f, -0.7f, 0.2f}, 0.6f));
+            CHECK_FALSE(overlaps({0.97f, 0, 0}, 0.06f));
+            CHECK_FALSE(overlaps({-0.7f, -0.7f, -0.7f}, 0.6f));  // in a corner
+            CHECK_FALSE(overlaps({0, 1.5f, 0}, 1));
+            CHECK(overlaps({0.1f, -0.701f, 0.2f}, 0.6f));
+            CHECK(overlaps({0, 1.499f, 0}, 1));
+        }
+    }
+}
+
 TEST_CASE("linked rings, and a body in a ring's hole, do not overlap") {
     CHECK_FALSE(overlap_of(torus({}), torus({1, 0, 0}, {90, 0, 0})));
     CHECK(overlap_of(torus({}), torus({0.5f, 0, 0}, {90, 0, 0})));
