@@ -70,6 +70,7 @@ MATERIALS = {
     "blinn-phong": "kd = 0.6\nks = 0.4\nshininess = 80",
     "cook-torrance": "kd = 0.6\nks = 0.4\nroughness = 0.25\nior = 3",
     "dielectric": "ior = 1.5\ndepth = 2",
+    "disney": "roughness = 0.4\nclearcoat = 1\nclearcoat_gloss = 0.8",
     "eon": "kd = 0.7\nroughness = 1",
     "ggx": "kd = 0.6\nks = 0.4\nroughness = 0.25\nior = 3",
     "gooch": "kd = 0.7\nks = 0.3\nwarm = [80, 80, 0]\ncool = [0, 0, 140]",
