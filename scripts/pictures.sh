@@ -70,15 +70,18 @@ contact_sheet() {
 
 # Every opaque reflection model, on the same fine sphere and teapot.
 reflection_sheet() {
-    sheet_head
+    sheet_head | sed 's/^height     = 4.5/height     = 6.0/; s/^height     = 450/height     = 600/'
     local i=0 x y reflection material
-    for reflection in lambert half-lambert oren-nayar minnaert phong blinn-phong cook-torrance ggx ward ashikhmin-shirley toon gooch; do
+    for reflection in lambert half-lambert oren-nayar eon minnaert phong blinn-phong cook-torrance beckmann ggx disney ward ashikhmin-shirley kajiya-kay toon gooch; do
         x=$(awk "BEGIN { print -3.9 + 2.6 * ($i % 4) }")
-        y=$(awk "BEGIN { print 1.5 - 1.5 * int($i / 4) }")
+        y=$(awk "BEGIN { print 2.25 - 1.5 * int($i / 4) }")
         case $reflection in
             *phong) material='material = { kd = 0.6, ks = 0.4, shininess = 30.0 }' ;;
             oren-nayar) material='material = { sigma = 40.0 }' ;;
-            cook-torrance | ggx) material='material = { kd = 0.6, ks = 0.4, roughness = 0.25, ior = 3.0 }' ;;
+            eon) material='material = { roughness = 1.0 }' ;;
+            disney) material='material = { roughness = 0.4, clearcoat = 1.0, clearcoat_gloss = 0.8 }' ;;
+            kajiya-kay) material='material = { kd = 0.4, ks = 0.4 }' ;;
+            cook-torrance | beckmann | ggx) material='material = { kd = 0.6, ks = 0.4, roughness = 0.25, ior = 3.0 }' ;;
             ward) material='material = { kd = 0.4, ks = 0.6 }' ;;
             ashikhmin-shirley) material='material = { ks = 0.2 }' ;;
             toon) material='material = { bands = 3, ks = 0.4 }' ;;
