@@ -86,6 +86,14 @@ std::optional<Highlight> highlight_of(const ExportedModel& model, const Exported
     return result;
 }
 
+std::optional<Principled> principled_of(const ExportedModel& model, const ExportedValues& values) {
+    if (std::string_view(model.id) != "reflection/disney") return std::nullopt;
+    const float roughness = real_value(model, values, "roughness").value_or(1.0f);
+    return Principled{.metallic = real_value(model, values, "metallic").value_or(0.0f),
+                      .alpha = std::clamp(roughness * roughness, 1e-3f, 1.0f),
+                      .reflectance = 0.08f * real_value(model, values, "specular").value_or(0.5f)};
+}
+
 void approximate_shading(const ExportedShading& shading, FileSink& files) {
     const auto say = [&](const char* how) {
         files.approximate(fmt::format("{} {}", shading.id, how).c_str());

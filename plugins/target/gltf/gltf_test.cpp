@@ -253,6 +253,26 @@ TEST_CASE("target/gltf: an imported metallic-roughness material survives a round
     CHECK_FALSE(glb.json["materials"][0].contains("extensions"));
 }
 
+TEST_CASE("target/gltf: a principled material becomes metallic-roughness of the same colour and numbers") {
+    const Folder folder = folder_with_leaf();
+    const auto material = [&](const std::string& values) {
+        const std::string scene =
+            std::string(k_scene).replace(k_scene.find("material ="), std::string::npos,
+                                         "reflection = \"disney\"\nmaterial = { " + values + " }\n");
+        return generated(folder, scene, {"--approximate"}).json["materials"][0];
+    };
+    const Json metal = material("metallic = 1, roughness = 0.3");
+    CHECK(is_near(metal["pbrMetallicRoughness"]["metallicFactor"], 1));
+    CHECK(is_near(metal["pbrMetallicRoughness"]["roughnessFactor"], 0.3));
+    CHECK(is_near(metal["pbrMetallicRoughness"]["baseColorFactor"][2], linear(50)));
+    CHECK_FALSE(metal.contains("extensions"));
+    // Reflectance 0.08 at normal incidence is twice glTF's; the light that it takes is added to the base.
+    const Json plastic = material("specular = 1, roughness = 0.6");
+    CHECK(is_near(plastic["pbrMetallicRoughness"]["metallicFactor"], 0));
+    CHECK(is_near(plastic["pbrMetallicRoughness"]["baseColorFactor"][1], linear(100) / 0.92));
+    CHECK(is_near(plastic["extensions"]["KHR_materials_specular"]["specularColorFactor"][0], 2));
+}
+
 TEST_CASE("target/gltf: textures are embedded unchanged, with v from the top, and read back") {
     const Folder folder;
     folder.write("quad.obj",

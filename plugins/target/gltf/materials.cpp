@@ -54,6 +54,14 @@ std::optional<float> metalness_of(Vec3 color, Vec3 diffuse, Vec3 mirrored) {
 Surface surface_of(const ExportedReflection& model, const ExportedValues& values, Vec3 color,
                    FileSink& files) {
     const std::string_view id = model.id;
+    if (const auto principled = target::principled_of(model, values)) {
+        files.approximate(fmt::format("{} becomes metallic-roughness", id).c_str());
+        const float mirrored = (1 - principled->metallic) * principled->reflectance;
+        return {.base = at_most_one((1 / (1 - mirrored)) * color),
+                .metallic = principled->metallic,
+                .roughness = std::sqrt(principled->alpha),
+                .mirrored = principled->reflectance * Vec3{1, 1, 1}};
+    }
     const Vec3 diffuse = target::rgb_value(model, values, "kd").value_or(Vec3{1, 1, 1});
     const auto highlight = target::highlight_of(model, values);
     if (!highlight || highlight->specular == Vec3{}) {
@@ -132,7 +140,7 @@ std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
     const Vec3 usual{k_dielectric, k_dielectric, k_dielectric};
     if (!surface.has_specular) {
         material["extensions"][k_specular]["specularFactor"] = 0;
-    } else if (surface.metallic == 0 && distance(surface.mirrored, usual) > 1e-6f) {
+    } else if (surface.metallic < 1 && distance(surface.mirrored, usual) > 1e-6f) {
         material["extensions"][k_specular]["specularColorFactor"] =
             json_of((1 / k_dielectric) * surface.mirrored);
     }

@@ -44,9 +44,17 @@ std::string highlight_text(const Finish& finish, float brightness) {
 }
 
 /// A model that POV-Ray does not have: its diffuse part as Lambert's, its highlight as Blinn's.
-void approximate(const ExportedReflection& model, const ExportedValues& values, Finish& finish,
+void approximate(const ExportedReflection& model, const ExportedValues& values, Vec3 color, Finish& finish,
                  FileSink& files) {
-    const auto highlight = target::highlight_of(model, values);
+    auto highlight = target::highlight_of(model, values);
+    if (const auto principled = target::principled_of(model, values)) {
+        const float dielectric = 1 - principled->metallic;
+        finish.diffuse = dielectric * Vec3{1, 1, 1};
+        highlight = {
+            .specular = dielectric * principled->reflectance * Vec3{1, 1, 1} + principled->metallic * color,
+            .alpha = principled->alpha,
+            .facets = 1};
+    }
     if (!highlight) {
         files.approximate(fmt::format("{} becomes Lambert's diffuse light", model.id).c_str());
         return;
@@ -63,7 +71,8 @@ void approximate(const ExportedReflection& model, const ExportedValues& values, 
             .c_str());
 }
 
-Finish finish_of(const ExportedReflection& model, const ExportedValues& values, FileSink& files) {
+/// `color`: the object's.
+Finish finish_of(const ExportedReflection& model, const ExportedValues& values, Vec3 color, FileSink& files) {
     const std::string_view id = model.id;
     const auto rgb = [&](const char* parameter, float otherwise) {
         return target::rgb_value(model, values, parameter).value_or(Vec3{otherwise, otherwise, otherwise});
@@ -72,7 +81,7 @@ Finish finish_of(const ExportedReflection& model, const ExportedValues& values, 
     if (id == "reflection/lambert") return finish;
     const auto exponent = target::real_value(model, values, "shininess");
     if (!exponent || (id != "reflection/phong" && id != "reflection/blinn-phong")) {
-        approximate(model, values, finish, files);
+        approximate(model, values, color, finish, files);
         return finish;
     }
     finish.specular = rgb("ks", 0);
@@ -95,12 +104,11 @@ struct Surface {
 };
 
 Surface surface_of(const ExportedScene& scene, const ExportedObject& object, Vec3 shade, FileSink& files) {
+    const Rgb decoded_color = decoded(object.color, scene.image.color_management);
+    const Vec3 color = target::times({decoded_color.r, decoded_color.g, decoded_color.b}, shade);
     const Finish finish =
-        finish_of(scene.reflections[object.reflection], object.materials[object.reflection], files);
-    const Rgb color = decoded(object.color, scene.image.color_management);
-    Surface surface{.color = target::times({color.r, color.g, color.b}, shade),
-                    .diffuse = finish.diffuse.x,
-                    .ambient = finish.ambient};
+        finish_of(scene.reflections[object.reflection], object.materials[object.reflection], color, files);
+    Surface surface{.color = color, .diffuse = finish.diffuse.x, .ambient = finish.ambient};
     if (!is_grey(finish.diffuse)) {
         const Vec3 share = at_least_tiny(finish.diffuse);
         surface.color = target::times(surface.color, share);

@@ -39,6 +39,15 @@ struct Highlight {
 };
 std::optional<Highlight> highlight_of(const ExportedModel& model, const ExportedValues& values);
 
+/// The parts of Burley's model, reflection/disney, that renderers have: a mixture of a dielectric and a metal
+/// of the object's colour. Nothing for other models.
+struct Principled {
+    float metallic = 0;     // share of the metal
+    float alpha = 1;        // roughness of facets, as in Highlight
+    float reflectance = 0;  // of the dielectric's facets, at normal incidence
+};
+std::optional<Principled> principled_of(const ExportedModel& model, const ExportedValues& values);
+
 /// Reports how a shading model differs from what renderers do: light each point with the face's normal if the
 /// model lights faces, and otherwise with the normal interpolated between the vertices.
 void approximate_shading(const ExportedShading& shading, FileSink& files);
