@@ -77,6 +77,21 @@ def grid(columns, size):
     return "\n".join(lines) + "\n"
 
 
+def hills(columns, size):
+    """A landscape, open at its border."""
+    lines = []
+    for k in range(columns + 1):
+        for i in range(columns + 1):
+            x, z = i / columns - 0.5, 0.5 - k / columns
+            y = 0.25 * math.sin(9 * x + 1) * math.cos(11 * z) + 0.06 * math.sin(31 * x * z + 20 * x)
+            lines.append(f"v {size * x:.5f} {y:.5f} {size * z:.5f}")
+    for k in range(columns):
+        for i in range(columns):
+            a = k * (columns + 1) + i + 1
+            lines.append(f"f {a} {a + 1} {a + columns + 2} {a + columns + 1}")
+    return "\n".join(lines) + "\n"
+
+
 # A screen of separate strips, open, with a normal towards +z.
 SCREEN = "".join(f"v {x} 0 0\nv {x + 0.12:.2f} 0 0\nv {x + 0.12:.2f} 1 0\nv {x} 1 0\n" for x in (-0.5, -0.25, 0, 0.25)) + "".join(
     f"f {i} {i + 1} {i + 2} {i + 3}\n" for i in (1, 5, 9, 13))
@@ -111,7 +126,7 @@ def plant():
 
 def files():
     """The files that the scenes use, by name. The floor of two triangles also reaches behind the observer."""
-    texts = {"floor.obj": grid(1, 30), "fine.obj": grid(90, 9), "screen.obj": SCREEN, "wall.obj": WALL,
+    texts = {"floor.obj": grid(1, 30), "fine.obj": grid(90, 9), "hills.obj": hills(60, 12), "screen.obj": SCREEN, "wall.obj": WALL,
              "tray.obj": TRAY, "plant.obj": plant(), "ring.obj": square_ring(), "lantern.kernel": LANTERN}
     return {**{name: text.encode() for name, text in texts.items()}, "waves.ppm": texture_scenes.ppm(128, 128, 255, 1)}
 
@@ -300,7 +315,8 @@ SCENES = [
     Scene("fourteen lamps", many_lights),
     Scene("three hundred objects", many_objects),
     Scene("twenty thousand triangles",
-          lambda s: SEEN + s.ambient() + POINT + SUN + s.floor() + s.ball(-0.9, 0.3, 0.7, 108) + s.ring(1.1, 0, 100)),
+          lambda s: SEEN + s.ambient() + POINT + SUN + s.ball(-0.9, 0.3, 0.7, 80) + s.ring(1.1, 0, 80) +
+          s.open_mesh("hills.obj", (0, 0.1, 0), 0, (180, 200, 140), is_smooth=True)),
     Scene("things that touch, cut, and are stacked",
           lambda s: SEEN + s.ambient() + SUN + POINT + s.floor() + s.box(-1, 0, 0.35) + s.box(-1, 0, 0.95, 0.5, 10) +
           s.box(0.3, 0.6, 0.1, turn=0) + s.ball(0.5, -0.7, 0.5, 24, 0.2) + s.ball(0.8, -0.5, 0.4, 24, 0.6) + s.screen(0.3, 0.6, 30)),

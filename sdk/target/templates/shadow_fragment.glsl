@@ -7,8 +7,9 @@ uniform vec3 pixel_right;
 uniform vec3 pixel_up;
 #endif
 flat in vec3 at_corner;
-// The place where the line of sight meets the triangle's plane. Interpolation may miss the plane by more than rays keep away from
-// surfaces, and edges of shadows show where it misses the line.
+// The place where the line of sight meets the triangle. Interpolation may miss the plane by more than rays keep away from surfaces,
+// and edges of shadows show where it misses the line. A line that misses the triangle, because rasterisers round its corners, meets
+// the plane beyond an edge, which in a hollow is behind the next triangle: there, the nearest place towards the middle is taken.
 vec3 place_on_triangle() {
     place_per_x = dFdx(at_place);
     place_per_y = dFdy(at_place);
@@ -22,6 +23,12 @@ vec3 place_on_triangle() {
     // Triangles seen from the side also cover pixels whose line of sight misses them widely.
     float pixel = length(pixel_right) * (is_orthographic ? 1.0 : dot(towards_observer, eye - at_place));
     if (!(distance(place, at_place) < 4.0 * pixel)) place = at_place;
+    mat2x3 edges = mat2x3(place_per_x, place_per_y) * inverse(mat2(dFdx(at_barycentric).xy, dFdy(at_barycentric).xy));
+    vec2 weights = at_barycentric.xy + inverse(transpose(edges) * edges) * ((place - at_place) * edges);
+    vec3 to_middle = edges * (1.0 / 3.0 - weights);
+    float least = min(min(weights.x, weights.y), 1.0 - weights.x - weights.y);
+    vec3 within = place + max(0.0, least / (least - 1.0 / 3.0)) * to_middle;
+    if (distance(within, place) < 4.0 * pixel) place = within;  // not if the triangle seems to be a line
     return place - at_face_normal * dot(at_face_normal, place - at_corner);
 }
 #endif
