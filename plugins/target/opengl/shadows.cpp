@@ -25,6 +25,8 @@ constexpr const char* k_set_object =
     "            set(program, {\"object_index\", Uniform::whole, {static_cast<float>(i), 0, 0}});\n"
     "            set(program, {\"is_shadowed\", Uniform::whole, {object.receives_shadows && "
     "choice.has_shadows ? 1.0f : 0.0f, 0, 0}});\n"
+    "            set(program, {\"blocks_both_sides\", Uniform::whole, "
+    "{object.is_solid ? 0.0f : 1.0f, 0, 0}});\n"
     "            set_sight(program, observer, view, width, height, sample);\n"
     "            set(program, {\"picture_height\", Uniform::whole, {static_cast<float>(height), 0, 0}});\n";
 

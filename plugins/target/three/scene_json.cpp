@@ -155,6 +155,7 @@ class Writer {
             json["is_solid"] = bool{is_solid_[index]};
             json["uniforms"]["object_index"] = index;
             json["uniforms"]["is_shadowed"] = object.receives_shadows;
+            json["uniforms"]["blocks_both_sides"] = !is_solid_[index];
         }
         return json;
     }

@@ -28,7 +28,10 @@ vec3 place_on_triangle() {
     vec3 to_middle = edges * (1.0 / 3.0 - weights);
     float least = min(min(weights.x, weights.y), 1.0 - weights.x - weights.y);
     vec3 within = place + max(0.0, least / (least - 1.0 / 3.0)) * to_middle;
-    if (distance(within, place) < 4.0 * pixel) place = within;  // not if the triangle seems to be a line
+    if (distance(within, place) < 4.0 * pixel) {  // not if the triangle seems to be a line
+        place = within;
+        seen_inward = normalize(to_middle);
+    }
     return place - at_face_normal * dot(at_face_normal, place - at_corner);
 }
 #endif

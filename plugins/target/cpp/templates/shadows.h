@@ -159,6 +159,14 @@ bool is_hollow(const ShadowPlace& at, vec3 to_light) {
     return at.is_back ? turn > 0 : turn < 0;
 }
 
+// Along the triangle towards its middle.
+vec3 inward(const ShadowPlace& at) {
+    const Mesh& m = at.object.mesh;
+    const auto corner = [&](int k) { return m.position[static_cast<std::size_t>(m.corners[static_cast<std::size_t>(3 * at.triangle + k)])]; };
+    const vec3 to_middle = normalize((corner(0) + corner(1) + corner(2)) / 3.0f - at.position);
+    return to_middle - dot(at.face_normal, to_middle) * at.face_normal;
+}
+
 // The fraction of the light from a direction that reaches a place: 0 or 1.
 float unblocked(const ShadowPlace& at, vec3 to_light, float distance) {
     const bool reflects = @REFLECTS@;
@@ -169,6 +177,8 @@ float unblocked(const ShadowPlace& at, vec3 to_light, float distance) {
     const float length = distance * 0.9999990f - 2.0f * margin;
     if (!(length > 2.0f * margin)) return 1.0f;
     // Above the surface and a little before the place, so that walls that meet in it are in the way; or below and after it.
-    const vec3 shift = (is_below ? -margin : margin) * (2.0f * at.face_normal - to_light);
+    vec3 shift = (is_below ? -margin : margin) * (2.0f * at.face_normal - to_light);
+    // In the edge of a room, that is behind the adjacent wall; so rays also start further inside their triangle.
+    if (at.triangle >= 0 && !at.object.is_solid) shift += 4.0f * margin * inward(at);
     return at.tree.is_blocked({double3(at.position + shift), double3(to_light - shift / distance), static_cast<double>(length), &at.object, is_below, at.is_back}) ? 0.0f : 1.0f;
 }

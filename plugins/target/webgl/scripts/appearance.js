@@ -76,6 +76,7 @@ export function appearanceOf(settings) {
             uniforms: [
                 ["object_index", { kind: "int", value: i }],
                 ["is_shadowed", { kind: "int", value: hasShadows && object.receives_shadows ? 1 : 0 }],
+                ["blocks_both_sides", { kind: "int", value: object.is_solid ? 0 : 1 }],
                 ["object_color", toUniform(COLOR, settings.get(`object.${i}.color`), isSrgb)],
                 ...materialUniforms(settings, i, reflection),
                 ...modelUniforms(
