@@ -206,7 +206,7 @@ TEST_CASE("list and describe show the contents of manifests") {
     }
     CHECK(holds(run_candela({"describe", "teapot"}).out, "Newell (1975)"));
     expect(run_candela({"describe", "phong"}), 2);
-    expect(run_candela({"describe", "reflection/fong"}), 1, {"did you mean 'phong'?"});
+    expect(run_candela({"describe", "reflection/fhong"}), 1, {"did you mean 'phong'?"});
 }
 
 TEST_CASE("refused plugins are warnings on standard error, and the others still work") {
