@@ -191,7 +191,7 @@ void ModelChooser::report_unknown_material_keys(const TableNode& material, const
                 entry.key_place,
                 fmt::format("{} has no parameter '{}', which {} {}", context.help.subject, entry.key,
                             fmt::join(others, ", "), others.size() == 1 ? "has" : "have"),
-                "", context.help);
+                context.hint ? context.hint(entry.key) : "", context.help);
         }
     }
     report_unknown_keys(unknown, known_keys, context, tables_.diagnostics());

@@ -260,19 +260,22 @@ void LightVisibility::aim(const LightSample& light, const ConstVec3Span& positio
     std::uint32_t all = 0;
     for (std::size_t i = 0; i < count_; ++i) all |= flags_[i];
     const bool any_from_below = (all & ShadowRays::k_from_below) != 0;
-    if (any_from_below && points_->has_triangle && !mesh_->is_faceted)
-        lift_from_hollows(light.to_light, position);
+    if (any_from_below && points_->has_triangle && !mesh_->is_faceted) lift_from_hollows(light, position);
 }
 
-void LightVisibility::lift_from_hollows(const ConstVec3Span& to_light, const ConstVec3Span& position) {
+void LightVisibility::lift_from_hollows(const LightSample& light, const ConstVec3Span& position) {
     for (std::size_t i = 0; i < points_->count; ++i) {
         if ((flags_[i] & ShadowRays::k_from_below) == 0) continue;
-        const Vec3 l = to_light[i], p = position[i];
+        const Vec3 l = light.to_light[i], p = position[i];
         if (!(dot(normal_[i], l) > 0) || !is_hollow(*mesh_, points_->triangle[i], points_->facing[i], l))
             continue;
         flags_[i] &= ~ShadowRays::k_from_below;
-        origin_.span().set(i, 2.0f * p - std::as_const(origin_).span()[i]);
-        towards_.span().set(i, 2.0f * l - std::as_const(towards_).span()[i]);
+        const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+        const float margin = std::max(tree_->least_margin(), OcclusionTree::k_relative_margin * largest);
+        const Vec3 n = points_->facing[i] * points_->face_normal.span()[i];
+        const Vec3 across = 2 * margin * (2.0f * n - l);  // to the other side of the surface
+        origin_.span().set(i, std::as_const(origin_).span()[i] + across);
+        towards_.span().set(i, std::as_const(towards_).span()[i] - 1 / light.distance[i] * across);
     }
 }
 

@@ -84,7 +84,7 @@ class LightVisibility {
     void add_sample(const LightSample& light, int sample);
     /// Starts rays above the surface where it is hollow, so that it blocks light that faces its normal but
     /// not its triangle: the surface rises towards the light.
-    void lift_from_hollows(const ConstVec3Span& to_light, const ConstVec3Span& position);
+    void lift_from_hollows(const LightSample& light, const ConstVec3Span& position);
     ConstVec3Span traced();
 
     const OcclusionTree* tree_ = nullptr;
