@@ -37,7 +37,8 @@ export function clippingPlanes(observer, forward, bounds) {
         }
     }
     if (!(farthest > 0)) return { near: 0.1, far: 1 };
-    const far = farthest * 1.001;
+    // With room for rounding: the depths of the farthest points must differ from the largest.
+    const far = farthest * 1.05;
     if (observer.projection === "orthographic") return { near: Math.max(0.9 * nearest, 0), far };
     return { near: Math.max(0.9 * nearest, Math.min(1e-4, 1e-5 * farthest)), far };
 }
