@@ -2,10 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/compiled.h"
+#include "support/highlight.h"
 #include "support/plugins.h"
 #include "support/samples.h"
-#include "support/scene_tables.h"
 
 using candela::ReflectionModel;
 using candela::Vec3;
@@ -85,27 +84,8 @@ TEST_CASE("reflection/kajiya-kay is brightest in the mirror directions of every 
 
 TEST_CASE("reflection/kajiya-kay: the highlight of a rendered ball is a band across the strands") {
     const auto spread = [](const std::string& strand) {
-        const Compiled ball = compiled(k_start + "projection = \"orthographic\"\nheight = 2.2\n" +
-                                       image_table(96, 96) + models("phong", "kajiya-kay") +
-                                       "[[light]]\ntype = \"directional\"\ndirection = [0, 0, -1]\n"
-                                       "[[object]]\ntype = \"sphere\"\nradius = 1\n"
-                                       "material = { kd = 0, ka = 0, ks = 1, strand = \"" +
-                                       strand + "\" }\n");
-        candela::Film film(96, 96, candela::PixelType::real, candela::ColorEncoding::none);
-        candela::render(ball.scene, film, {.threads = 1});
-        // Second moments of brightness about the centre: across (x) and up (y).
-        double x2 = 0, y2 = 0;
-        for (int row = 0; row < 96; ++row) {
-            for (int column = 0; column < 96; ++column) {
-                const auto i = 3 * (static_cast<std::size_t>(row) * 96 + static_cast<std::size_t>(column));
-                const double b = static_cast<double>(film.view().reals[i]);
-                x2 += b * (column - 47.5) * (column - 47.5);
-                y2 += b * (row - 47.5) * (row - 47.5);
-            }
-        }
-        return x2 / y2;
+        return highlight_aspect("kajiya-kay", "kd = 0, ka = 0, ks = 1, strand = \"" + strand + "\"");
     };
-    // u runs around the ball's vertical axis: horizontally here.
     CHECK(spread("u") < 0.3);
     CHECK(spread("v") > 3);
 }

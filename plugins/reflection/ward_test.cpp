@@ -3,11 +3,10 @@
 #include <numbers>
 
 #include "support/command.h"
-#include "support/compiled.h"
+#include "support/highlight.h"
 #include "support/microfacets.h"
 #include "support/plugins.h"
 #include "support/samples.h"
-#include "support/scene_tables.h"
 
 using candela::ReflectionModel;
 
@@ -78,28 +77,9 @@ TEST_CASE(
     "the grain runs along u on a rendered ball: the highlight is long across it, and turns with the "
     "roughnesses") {
     const auto spread = [](const std::string& u, const std::string& v) {
-        const Compiled ball =
-            compiled(k_start + "projection = \"orthographic\"\nheight = 2.2\n" + image_table(96, 96) +
-                     models("phong", "ward") +
-                     "[[light]]\ntype = \"directional\"\ndirection = [0, 0, -1]\n"
-                     "[[object]]\ntype = \"sphere\"\nradius = 1\nmaterial = { kd = 0, ka = 0, ks = 1, "
-                     "roughness_u = " +
-                     u + ", roughness_v = " + v + " }\n");
-        candela::Film film(96, 96, candela::PixelType::real, candela::ColorEncoding::none);
-        candela::render(ball.scene, film, {.threads = 1});
-        // Second moments of brightness about the centre: across (x) and up (y).
-        double x2 = 0, y2 = 0;
-        for (int row = 0; row < 96; ++row) {
-            for (int column = 0; column < 96; ++column) {
-                const auto i = 3 * (static_cast<std::size_t>(row) * 96 + static_cast<std::size_t>(column));
-                const double b = static_cast<double>(film.view().reals[i]);
-                x2 += b * (column - 47.5) * (column - 47.5);
-                y2 += b * (row - 47.5) * (row - 47.5);
-            }
-        }
-        return x2 / y2;
+        return highlight_aspect("ward",
+                                "kd = 0, ka = 0, ks = 1, roughness_u = " + u + ", roughness_v = " + v);
     };
-    // u runs around the ball's vertical axis: horizontally here.
     CHECK(spread("0.4", "0.1") > 4);
     CHECK(spread("0.1", "0.4") < 0.25);
     CHECK(agree(spread("0.2", "0.2"), 1, 0.02));
