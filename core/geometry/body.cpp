@@ -315,16 +315,12 @@ bool Body::contains(Vec3 point) const { return surface_->contains(vector(point))
 
 bool overlap(const Body& a_body, const Body& b_body) {
     using Surface = Body::Surface;
-    const bool is_one_solid = a_body.surface_->solidity != b_body.surface_->solidity;
-    const auto surface_of = [&](const Body& body) -> const Surface& {
-        const Surface& own = *body.surface_;
-        const bool is_at_rest = is_one_solid && own.solidity == Solidity::hollow && !own.triangles.empty();
-        return is_at_rest ? own.at_rest() : own;
-    };
-    if (!a_body.surface_->box.intersects(b_body.surface_->box)) return false;
-    const Surface& a = surface_of(a_body);
-    const Surface& b = surface_of(b_body);
-    if (a.triangles.empty() || b.triangles.empty() || !a.box.intersects(b.box)) return false;
+    const Surface& a_own = *a_body.surface_;
+    const Surface& b_own = *b_body.surface_;
+    if (a_own.triangles.empty() || b_own.triangles.empty() || !a_own.box.intersects(b_own.box)) return false;
+    const bool is_one_solid = a_own.solidity != b_own.solidity;
+    const Surface& a = is_one_solid && a_own.solidity == Solidity::hollow ? a_own.at_rest() : a_own;
+    const Surface& b = is_one_solid && b_own.solidity == Solidity::hollow ? b_own.at_rest() : b_own;
     // Equal bodies next to each other have planes in common. A shift far smaller than the margins, in an
     // arbitrary direction, separates them, so that only crossings of an edge with a face remain to be found.
     const Vector3d shift = 0.1 * std::min(a.margin, b.margin) * Vector3d(0.6177, 0.5371, 0.5743);

@@ -72,21 +72,6 @@ constexpr std::size_t k_most_per_cluster = 16;
 constexpr float k_normal_error = 0x1p-20f;
 constexpr float k_least_cosine = 0x1p-10f;
 
-struct Bounds3 {
-    std::array<float, 3> low, high;
-
-    static Bounds3 empty() {
-        constexpr float k_most = std::numeric_limits<float>::infinity();
-        return {{k_most, k_most, k_most}, {-k_most, -k_most, -k_most}};
-    }
-    void add(const std::array<float, 3>& v) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            low[k] = std::min(low[k], v[k]);
-            high[k] = std::max(high[k], v[k]);
-        }
-    }
-};
-
 /// Every third bit of seven.
 std::uint32_t spread(std::uint32_t bits) {
     bits = (bits | bits << 8) & 0x0000700fu;
@@ -105,7 +90,7 @@ struct Clustering {
 
 Clustering::Clustering(const Mesh& mesh) : triangles(mesh.triangle_count()) {
     const std::size_t count = triangles.size();
-    // A surface meets some 6 times 4^bits cells, each of which should have about ten triangles.
+    // A surface passes through about 6 * 4^bits cells; aim for ten triangles in each.
     const auto square = static_cast<unsigned>(std::bit_width(count / 60));
     const unsigned bits = std::min((square + 1) / 2, 7u);
     const auto most = static_cast<float>((1u << bits) - 1);
@@ -137,17 +122,20 @@ Clustering::Clustering(const Mesh& mesh) : triangles(mesh.triangle_count()) {
     }
 }
 
+constexpr float k_infinity = std::numeric_limits<float>::infinity();
+constexpr Box k_empty{{k_infinity, k_infinity, k_infinity}, {-k_infinity, -k_infinity, -k_infinity}};
+
 /// The bounds of some triangles.
 struct Cluster {
-    Bounds3 position = Bounds3::empty();
-    Bounds3 normal = Bounds3::empty();
+    Box position = k_empty;
+    Box normal = k_empty;
     float inverse_height = 0;
 
     void add(const Mesh& mesh, std::uint32_t triangle) {
         std::array<Vec3, 3> corner;
         for (std::size_t k = 0; k < 3; ++k) {
             corner[k] = mesh.vertices[mesh.indices[3 * std::size_t{triangle} + k]].position;
-            position.add({corner[k].x, corner[k].y, corner[k].z});
+            position = united(position, {corner[k], corner[k]});
         }
         const Vec3 a = corner[1] - corner[0], b = corner[2] - corner[0], c = corner[2] - corner[1];
         const float edge = std::sqrt(std::max({dot(a, a), dot(b, b), dot(c, c)}));
@@ -156,31 +144,29 @@ struct Cluster {
         // The normal of a needle is not known. (Nor if the height is NaN.)
         if (!(height > 0x1p-10f * edge)) return any_normal();
         const Vec3 n = (1 / area) * twice;
-        normal.add({n.x, n.y, n.z});
+        normal = united(normal, {n, n});
         inverse_height = std::max(inverse_height, 1 / height);
     }
     void any_normal() { normal = {{-1, -1, -1}, {1, 1, 1}}; }
 };
 
 void set_lane(Node& node, std::size_t lane, const Cluster& cluster) {
-    const Box box =
-        enlarged({{cluster.position.low[0], cluster.position.low[1], cluster.position.low[2]},
-                  {cluster.position.high[0], cluster.position.high[1], cluster.position.high[2]}});
-    const std::array low{box.low.x, box.low.y, box.low.z}, high{box.high.x, box.high.y, box.high.z};
+    const Box box = enlarged(cluster.position);
+    constexpr std::array k_axes{&Vec3::x, &Vec3::y, &Vec3::z};
     for (std::size_t k = 0; k < 3; ++k) {
-        node.high[k][lane] = high[k];
-        node.minus_low[k][lane] = -low[k];
-        node.least_normal[k][lane] = cluster.normal.low[k];
-        node.most_normal[k][lane] = cluster.normal.high[k];
+        float Vec3::* const axis = k_axes[k];
+        node.high[k][lane] = box.high.*axis;
+        node.minus_low[k][lane] = -(box.low.*axis);
+        node.least_normal[k][lane] = cluster.normal.low.*axis;
+        node.most_normal[k][lane] = cluster.normal.high.*axis;
     }
     node.inverse_height[lane] = cluster.inverse_height;
 }
 
 void clear(Node& node) {
-    constexpr float k_nothing = -std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
-        node.high[k].fill(k_nothing);
-        node.minus_low[k].fill(k_nothing);
+        node.high[k].fill(-k_infinity);
+        node.minus_low[k].fill(-k_infinity);
         node.least_normal[k].fill(0);
         node.most_normal[k].fill(0);
     }

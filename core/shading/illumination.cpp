@@ -68,7 +68,7 @@ struct IntensityLoop {
     }
 };
 
-/// A number that is zero where there is no light.
+/// Zero exactly where no light arrives.
 struct BrightnessLoop {
     CANDELA_BATCH_LOOP static void run(ConstVec3Span a, ConstVec3Span b, std::size_t count, float* to) {
         CANDELA_VECTORIZE

@@ -28,6 +28,12 @@ namespace {
 
 using kernel::vec3;
 
+/// How far from a point's surface its rays start, at least `least`.
+[[gnu::always_inline]] inline float margin_at(vec3 p, float least) {
+    const float largest = kernel::max(kernel::max(kernel::abs(p.x), kernel::abs(p.y)), kernel::abs(p.z));
+    return kernel::max(least, OcclusionTree::k_relative_margin * largest);
+}
+
 /// Rays from a batch's points to a light. They start a margin above the surface, or below it where it faces
 /// away from the light, and end a margin before the light. Above, they also start a margin before the point,
 /// so that walls that meet in it are in the way and light does not leak through corners; below, a margin
@@ -53,9 +59,7 @@ struct AimLoop {
             const vec3 p = kernel::load(points.position, i);
             const vec3 l = kernel::load(to_light, i);
             const vec3 n = kernel::load(points.face_normal, i) * points.facing[i];
-            const float largest =
-                kernel::max(kernel::max(kernel::abs(p.x), kernel::abs(p.y)), kernel::abs(p.z));
-            const float margin = kernel::max(points.margin, OcclusionTree::k_relative_margin * largest);
+            const float margin = margin_at(p, points.margin);
             // Light that only models ask for that wrap it around always comes from below, whichever way the
             // triangle faces: otherwise its edges would show.
             const float cosine = kernel::dot(kernel::load(points.normal, i), l);
@@ -229,9 +233,12 @@ void LightVisibility::find_inside() {
     inward_ = !points_->has_triangle ? 2.0f : tree_->is_solid(object_) ? 0.0f : 4.0f;
     if (inward_ == 0) return;
     const Vec3Span inside = inside_.span();
-    const Vec3 middle = 0.5f * (mesh_->bounds.low + mesh_->bounds.high);
-    for (std::size_t i = 0; i < count_; ++i) inside.set(i, middle);
-    for (std::size_t i = 0; points_->has_triangle && i < points_->count; ++i) {
+    if (!points_->has_triangle) {
+        const Vec3 middle = 0.5f * (mesh_->bounds.low + mesh_->bounds.high);
+        for (std::size_t i = 0; i < count_; ++i) inside.set(i, middle);
+        return;
+    }
+    for (std::size_t i = 0; i < points_->count; ++i) {
         Vec3 sum{};
         for (std::size_t k = 0; k < 3; ++k)
             sum = sum + mesh_->vertices[mesh_->indices[3 * std::size_t{points_->triangle[i]} + k]].position;
@@ -270,8 +277,7 @@ void LightVisibility::lift_from_hollows(const LightSample& light, const ConstVec
         if (!(dot(normal_[i], l) > 0) || !is_hollow(*mesh_, points_->triangle[i], points_->facing[i], l))
             continue;
         flags_[i] &= ~ShadowRays::k_from_below;
-        const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        const float margin = std::max(tree_->least_margin(), OcclusionTree::k_relative_margin * largest);
+        const float margin = margin_at({p.x, p.y, p.z}, tree_->least_margin());
         const Vec3 n = points_->facing[i] * points_->face_normal.span()[i];
         const Vec3 across = 2 * margin * (2.0f * n - l);  // to the other side of the surface
         origin_.span().set(i, std::as_const(origin_).span()[i] + across);

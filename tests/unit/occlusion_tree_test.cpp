@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/meshes.h"
 #include "support/plugins.h"
 #include "support/samples.h"
 
@@ -24,11 +25,6 @@ using candela::Vec3;
 namespace {
 
 constexpr float k_infinity = std::numeric_limits<float>::infinity();
-
-candela::Mesh shape(const char* name, Given given = {}, const candela::Transform& transform = {}) {
-    return candela::build_mesh(*instance<candela::Shape>(name, given), {}, transform,
-                               *instance<candela::ShadingModel>("flat"));
-}
 
 struct Ray {
     Vec3 origin, direction;
@@ -140,9 +136,9 @@ std::vector<Ray> delicate_rays(const candela::Mesh& mesh, std::size_t count) {
 TEST_CASE("rays of a convex object that meet no other box are visible, and all others are as if traced") {
     const Given coarse{{"segments", 24}};
     std::vector<candela::Mesh> meshes;
-    meshes.push_back(shape("sphere", coarse));
-    meshes.push_back(shape("cube", {}, {.position = {1.5f, 0.4f, 0}}));
-    meshes.push_back(shape("torus", coarse, {.position = {0, 2, 0}, .rotation = {30, 0, 20}}));
+    meshes.push_back(flat_mesh("sphere", coarse));
+    meshes.push_back(flat_mesh("cube", {}, {.position = {1.5f, 0.4f, 0}}));
+    meshes.push_back(flat_mesh("torus", coarse, {.position = {0, 2, 0}, .rotation = {30, 0, 20}}));
     REQUIRE(meshes[0].is_convex);
     REQUIRE(meshes[1].is_convex);
     REQUIRE(!meshes[2].is_convex);
@@ -181,7 +177,7 @@ TEST_CASE("rays of a convex object that meet no other box are visible, and all o
 
 TEST_CASE("a ray is blocked, or not, whatever other rays are traced with it") {
     for (const char* const name : {"cube", "sphere", "torus", "teapot"}) {
-        const candela::Mesh mesh = shape(name);
+        const candela::Mesh mesh = flat_mesh(name);
         for (const bool is_solid : {true, false}) {
             const OcclusionTree tree(std::vector<Occluder>{{.mesh = &mesh, .is_solid = is_solid}});
             const std::vector<Ray> rays = delicate_rays(mesh, 40000);
@@ -200,7 +196,7 @@ TEST_CASE("a ray is blocked, or not, whatever other rays are traced with it") {
 
 TEST_CASE("the way through a transparent object does not depend on other rays either") {
     for (const char* const name : {"cube", "sphere", "torus"}) {
-        const candela::Mesh mesh = shape(name);
+        const candela::Mesh mesh = flat_mesh(name);
         const OcclusionTree tree(
             std::vector<Occluder>{{.mesh = &mesh, .is_solid = true, .is_transparent = true}});
         const std::vector<Ray> rays = delicate_rays(mesh, 10000);
@@ -214,7 +210,7 @@ TEST_CASE("the way through a transparent object does not depend on other rays ei
 }
 
 TEST_CASE("a solid object blocks light where it enters, and nowhere else") {
-    const candela::Mesh ball = shape("sphere", {{"radius", 1.0}, {"segments", std::int64_t{200}}});
+    const candela::Mesh ball = flat_mesh("sphere", {{"radius", 1.0}, {"segments", std::int64_t{200}}});
     const OcclusionTree tree(std::vector<Occluder>{{.mesh = &ball, .is_solid = true}});
     Random random(21);
     std::vector<Ray> rays;
@@ -239,7 +235,7 @@ TEST_CASE("a solid object blocks light where it enters, and nowhere else") {
 }
 
 TEST_CASE("a surface that is not solid blocks light on both sides") {
-    const candela::Mesh room = shape("cube", {{"size", 2.0}});
+    const candela::Mesh room = flat_mesh("cube", {{"size", 2.0}});
     const OcclusionTree tree(std::vector<Occluder>{{.mesh = &room}});
     const std::vector<float> found = visible(tree, {{{0, 0, 0}, {1, 0, 0}},
                                                     {{3, 0, 0}, {-1, 0, 0}},
@@ -249,8 +245,8 @@ TEST_CASE("a surface that is not solid blocks light on both sides") {
 }
 
 TEST_CASE("a ray that starts below a surface leaves its own object, whichever side is seen") {
-    const candela::Mesh sheet = shape("cube", {{"size", 2.0}}),
-                        wall = shape("cube", {{"size", 2.0}}, {.position = {0, 5, 0}});
+    const candela::Mesh sheet = flat_mesh("cube", {{"size", 2.0}}),
+                        wall = flat_mesh("cube", {{"size", 2.0}}, {.position = {0, 5, 0}});
     const OcclusionTree tree(std::vector<Occluder>{{.mesh = &sheet}, {.mesh = &wall}});
     constexpr std::uint32_t k_below = ShadowRays::k_traced | ShadowRays::k_from_below;
     constexpr std::uint32_t k_behind = k_below | ShadowRays::k_from_behind;
@@ -266,7 +262,7 @@ TEST_CASE("a ray that starts below a surface leaves its own object, whichever si
 
 TEST_CASE(
     "the way through a transparent box is that between its planes, across diagonals, edges and corners") {
-    const candela::Mesh box = shape("cube", {{"size", 2.0}});
+    const candela::Mesh box = flat_mesh("cube", {{"size", 2.0}});
     const OcclusionTree tree(std::vector<Occluder>{{.mesh = &box, .is_solid = true, .is_transparent = true}});
     std::vector<Ray> rays;
     for (int i = -36; i <= 36; ++i) {
@@ -290,7 +286,7 @@ TEST_CASE(
 }
 
 TEST_CASE("light of a lamp within a transparent object passes from there on") {
-    const candela::Mesh box = shape("cube", {{"size", 2.0}});
+    const candela::Mesh box = flat_mesh("cube", {{"size", 2.0}});
     const OcclusionTree tree(std::vector<Occluder>{{.mesh = &box, .is_solid = true, .is_transparent = true}});
     CHECK(agree(double{ways(tree, {{{0.2f, 3, 0.1f}, {0, -1, 0}, 2.5f}})[0]}, 0.5, 1e-6));
     CHECK(agree(double{ways(tree, {{{0.2f, 0.5f, 0.1f}, {0, -1, 0}, 2.5f}})[0]}, 1.5, 1e-6));
@@ -298,7 +294,7 @@ TEST_CASE("light of a lamp within a transparent object passes from there on") {
 }
 
 TEST_CASE("a transparent surface that is open has no inside, and thus no colour") {
-    candela::Mesh box = shape("cube", {{"size", 2.0}});
+    candela::Mesh box = flat_mesh("cube", {{"size", 2.0}});
     box.indices.resize(6);
     box.open_edges = 4;
     const OcclusionTree tree(std::vector<Occluder>{{.mesh = &box, .is_transparent = true}});
@@ -308,8 +304,8 @@ TEST_CASE("a transparent surface that is open has no inside, and thus no colour"
 }
 
 TEST_CASE("the blocker is the nearest triangle that blocks, not the nearest that is hit") {
-    const candela::Mesh near = shape("cube", {{"size", 2.0}}),
-                        far = shape("cube", {{"size", 2.0}}, {.position = {0, 5, 0}});
+    const candela::Mesh near = flat_mesh("cube", {{"size", 2.0}}),
+                        far = flat_mesh("cube", {{"size", 2.0}}, {.position = {0, 5, 0}});
     const OcclusionTree tree(
         std::vector<Occluder>{{.mesh = &near, .is_solid = true}, {.mesh = &far, .is_solid = true}});
     const Rays rays(
@@ -328,25 +324,17 @@ TEST_CASE("the blocker is the nearest triangle that blocks, not the nearest that
 }
 
 TEST_CASE("triangles without area block nothing and do not disturb those that have one") {
-    candela::Mesh mesh;
-    mesh.bounds = {{-3, -3, -3}, {3, 3, 3}};
+    std::vector<Vec3> corners;
     Random random(22);
-    constexpr std::size_t k_count = 3000;
-    mesh.position.resize(3 * k_count);
-    for (std::size_t i = 0; i < k_count; ++i) {
+    for (std::size_t i = 0; i < 3000; ++i) {
         const Vec3 a = random.point(1), along = random.point(1);
         // A point, a line, a needle a billionth as wide as it is long, and what a triangle should be.
         const std::array b{a, a + along, a + along, a + along},
             c{a, a + 0.5f * along, a + 0.5f * along + 1e-9f * random.direction(),
               a + 0.2f * random.direction()};
-        mesh.position.span().set(3 * i, a);
-        mesh.position.span().set(3 * i + 1, b[i % 4]);
-        mesh.position.span().set(3 * i + 2, c[i % 4]);
+        corners.insert(corners.end(), {a, b[i % 4], c[i % 4]});
     }
-    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        mesh.indices.push_back(static_cast<std::uint32_t>(i));
-        mesh.vertices.push_back({.position = std::as_const(mesh.position).span()[i], .normal = {}});
-    }
+    const candela::Mesh mesh = loose_triangles(corners, {{-3, -3, -3}, {3, 3, 3}});
     candela::Mesh proper = mesh;
     proper.indices.clear();
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
@@ -369,11 +357,11 @@ TEST_CASE("a tree of nothing blocks nothing") {
 }
 
 TEST_CASE("few objects, whose boxes are looked at first, block the same light as many") {
-    const candela::Mesh box = shape("cube", {{"size", 1.0}}, {.rotation = {20, 30, 40}}),
-                        ring = shape("torus", {}, {.position = {1, 0, 0}});
+    const candela::Mesh box = flat_mesh("cube", {{"size", 1.0}}, {.rotation = {20, 30, 40}}),
+                        ring = flat_mesh("torus", {}, {.position = {1, 0, 0}});
     std::vector<Occluder> few{{.mesh = &box, .is_solid = true}, {.mesh = &ring}};
     std::vector<Occluder> many = few;
-    const candela::Mesh away = shape("cube", {}, {.position = {0, 1000, 0}});
+    const candela::Mesh away = flat_mesh("cube", {}, {.position = {0, 1000, 0}});
     many.resize(100, {.mesh = &away, .is_solid = true});
     const OcclusionTree tree(few), larger(many);
     for (const std::uint32_t object : {0u, 1u, k_nowhere}) {

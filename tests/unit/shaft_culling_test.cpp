@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/meshes.h"
 #include "support/plugins.h"
 #include "support/samples.h"
 
@@ -21,11 +22,6 @@ using candela::ShadowRays;
 using candela::Vec3;
 
 namespace {
-
-candela::Mesh shape(const char* name, Given given = {}, const candela::Transform& transform = {}) {
-    return candela::build_mesh(*instance<candela::Shape>(name, given), {}, transform,
-                               *instance<candela::ShadingModel>("flat"));
-}
 
 Vec3 within(Random& random, const Box& box) {
     const auto at = [&](float low, float high) {
@@ -80,10 +76,10 @@ constexpr std::uint32_t k_nowhere = 99;
 TEST_CASE("where a shaft says that nothing can block light, no ray in it is blocked") {
     const Given fine{{"segments", std::int64_t{60}}}, coarse{{"segments", std::int64_t{9}}};
     std::vector<candela::Mesh> meshes;
-    meshes.push_back(shape("torus", fine));
-    meshes.push_back(shape("teapot", coarse, {.position = {0.3f, 1.5f, 0}}));
-    meshes.push_back(shape("cube", {}, {.position = {2, 0, 1}, .rotation = {10, 20, 30}}));
-    meshes.push_back(shape("torus", coarse, {.position = {-1, 0.6f, 1}, .rotation = {80, 0, 0}}));
+    meshes.push_back(flat_mesh("torus", fine));
+    meshes.push_back(flat_mesh("teapot", coarse, {.position = {0.3f, 1.5f, 0}}));
+    meshes.push_back(flat_mesh("cube", {}, {.position = {2, 0, 1}, .rotation = {10, 20, 30}}));
+    meshes.push_back(flat_mesh("torus", coarse, {.position = {-1, 0.6f, 1}, .rotation = {80, 0, 0}}));
     // Solid, open, and transparent.
     const OcclusionTree tree(
         std::vector<Occluder>{{.mesh = &meshes[0], .is_solid = true},
@@ -110,7 +106,7 @@ TEST_CASE("where a shaft says that nothing can block light, no ray in it is bloc
 }
 
 TEST_CASE("most of the light that leaves a fine, closed surface needs no rays") {
-    const candela::Mesh ring = shape("torus", {{"segments", std::int64_t{200}}});
+    const candela::Mesh ring = flat_mesh("torus", {{"segments", std::int64_t{200}}});
     const OcclusionTree solid(std::vector<Occluder>{{.mesh = &ring, .is_solid = true}}),
         open(std::vector<Occluder>{{.mesh = &ring}});
     Random random(32);
@@ -132,22 +128,15 @@ TEST_CASE("most of the light that leaves a fine, closed surface needs no rays") 
 
 TEST_CASE(
     "needles and triangles without area block light at the same places whether shafts are used or not") {
-    candela::Mesh mesh;
-    mesh.bounds = {{-2, -2, -2}, {2, 2, 2}};
+    std::vector<Vec3> corners;
     Random random(33);
-    constexpr std::size_t k_count = 300;
-    mesh.position.resize(3 * k_count);
-    for (std::size_t i = 0; i < k_count; ++i) {
+    for (int i = 0; i < 300; ++i) {
         const Vec3 a = random.point(1), along = random.point(0.5f);
         const float width = std::pow(10.0f, -static_cast<float>(i % 9));
-        mesh.position.span().set(3 * i, a);
-        mesh.position.span().set(3 * i + 1, i % 50 == 0 ? a : a + along);
-        mesh.position.span().set(3 * i + 2, a + 0.5f * along + width * random.direction());
+        corners.insert(corners.end(),
+                       {a, i % 50 == 0 ? a : a + along, a + 0.5f * along + width * random.direction()});
     }
-    for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-        mesh.indices.push_back(static_cast<std::uint32_t>(i));
-        mesh.vertices.push_back({.position = std::as_const(mesh.position).span()[i], .normal = {}});
-    }
+    const candela::Mesh mesh = loose_triangles(corners, {{-2, -2, -2}, {2, 2, 2}});
     const OcclusionTree tree(std::vector<Occluder>{{.mesh = &mesh, .is_solid = true}});
     int certain = 0, wrong = 0;
     for (int i = 0; i < 20'000; ++i) {

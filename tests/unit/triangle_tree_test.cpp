@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/meshes.h"
 #include "support/plugins.h"
 #include "support/samples.h"
 
@@ -22,11 +23,6 @@ using candela::TriangleTree;
 using candela::Vec3;
 
 namespace {
-
-candela::Mesh shape(const char* name, Given given) {
-    return candela::build_mesh(*instance<candela::Shape>(name, given), {}, {},
-                               *instance<candela::ShadingModel>("flat"));
-}
 
 TriangleTree tree_of(const candela::Mesh& mesh) {
     const candela::ConstVec3Span position = mesh.position.span();
@@ -64,7 +60,7 @@ Double3 at(Vec3 origin, Vec3 direction, double distance) {
 }  // namespace
 
 TEST_CASE("a ray within a ball leaves it where the quadratic equation says") {
-    const candela::Mesh ball = shape("sphere", {{"radius", 1.0}, {"segments", std::int64_t{256}}});
+    const candela::Mesh ball = flat_mesh("sphere", {{"radius", 1.0}, {"segments", std::int64_t{256}}});
     const TriangleTree tree = tree_of(ball);
     Random random(11);
     for (int i = 0; i < 2000; ++i) {
@@ -85,7 +81,7 @@ TEST_CASE("a ray within a ball leaves it where the quadratic equation says") {
 }
 
 TEST_CASE("a ray that enters through a point of the surface leaves elsewhere, and not where it entered") {
-    const candela::Mesh cube = shape("cube", {{"size", 2.0}});
+    const candela::Mesh cube = flat_mesh("cube", {{"size", 2.0}});
     const TriangleTree tree = tree_of(cube);
     Random random(12);
     for (int i = 0; i < 2000; ++i) {
@@ -106,7 +102,7 @@ TEST_CASE("a ray that enters through a point of the surface leaves elsewhere, an
 }
 
 TEST_CASE("a ray that starts close to a cube's edge leaves through the adjacent face, however close") {
-    const candela::Mesh cube = shape("cube", {{"size", 2.0}});
+    const candela::Mesh cube = flat_mesh("cube", {{"size", 2.0}});
     const TriangleTree tree = tree_of(cube);
     for (const float gap : {1e-2f, 1e-4f, 4e-6f, 1e-6f, 1.2e-7f, 0.0f}) {
         // From the face at the top, downwards, to the face on the right.
@@ -122,7 +118,7 @@ TEST_CASE("a ray that starts close to a cube's edge leaves through the adjacent 
 }
 
 TEST_CASE("a ray that starts on a surface and runs along it does not leave where it starts") {
-    const candela::Mesh cube = shape("cube", {{"size", 2.0}});
+    const candela::Mesh cube = flat_mesh("cube", {{"size", 2.0}});
     const TriangleTree tree = tree_of(cube);
     for (const float descent : {1e-1f, 1e-3f, 1e-5f, 1e-6f}) {
         const auto exit = exit_of(tree, {-0.5f, 0.25f, 1}, {1, 0, -descent});
@@ -133,7 +129,7 @@ TEST_CASE("a ray that starts on a surface and runs along it does not leave where
 }
 
 TEST_CASE("a ray along the edges and diagonals of a cube's faces does not slip between its triangles") {
-    const candela::Mesh cube = shape("cube", {{"size", 2.0}});
+    const candela::Mesh cube = flat_mesh("cube", {{"size", 2.0}});
     const TriangleTree tree = tree_of(cube);
     for (const Vec3 direction : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, -1}, Vec3{1, 1, 0}, Vec3{1, 1, 1},
                                  Vec3{-1, 1, -1}, Vec3{0, -1, -1}}) {
@@ -145,7 +141,7 @@ TEST_CASE("a ray along the edges and diagonals of a cube's faces does not slip b
 
 TEST_CASE("in a torus the path ends at the nearest wall, not at the far side of the hole") {
     const candela::Mesh ring =
-        shape("torus", {{"major_radius", 1.0}, {"minor_radius", 0.25}, {"segments", std::int64_t{128}}});
+        flat_mesh("torus", {{"major_radius", 1.0}, {"minor_radius", 0.25}, {"segments", std::int64_t{128}}});
     const auto exit = exit_of(tree_of(ring), {1, 0, 0}, {-1, 0, 0});
     REQUIRE(exit.has_value());
     CHECK(agree(static_cast<double>(exit->distance), 0.25, 2e-3));
@@ -164,7 +160,7 @@ TEST_CASE("where a surface is open, or absent, a ray does not leave") {
 TEST_CASE("a ray leaves at the same place whatever other rays are traced with it") {
     // Towards corners and along diagonals, where several triangles are equally near, and anywhere.
     for (const char* const name : {"cube", "sphere", "torus"}) {
-        const candela::Mesh mesh = shape(name, {});
+        const candela::Mesh mesh = flat_mesh(name, {});
         const TriangleTree tree = tree_of(mesh);
         const candela::ConstVec3Span vertices = mesh.position.span();
         Random random(14);
@@ -201,7 +197,7 @@ TEST_CASE("a ray leaves at the same place whatever other rays are traced with it
 }
 
 TEST_CASE("a ray of a faulty plugin has no exit, and its neighbours keep theirs") {
-    const candela::Mesh cube = shape("cube", {{"size", 2.0}});
+    const candela::Mesh cube = flat_mesh("cube", {{"size", 2.0}});
     const TriangleTree tree = tree_of(cube);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     const std::vector<float> zero(16, 0.0f);
@@ -218,7 +214,7 @@ TEST_CASE("a ray of a faulty plugin has no exit, and its neighbours keep theirs"
 }
 
 TEST_CASE("after rays have been followed, other work still uses several threads") {
-    const TriangleTree tree = tree_of(shape("cube", {}));
+    const TriangleTree tree = tree_of(flat_mesh("cube", {}));
     std::atomic<int> present = 0;
     std::atomic<bool> have_met = true;
     candela::with_threads(2, [&] {
@@ -237,7 +233,7 @@ TEST_CASE("a tree is built by the calling thread, and is thus the same however m
         return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
     };
     candela::with_threads(1, [&] {
-        const candela::Mesh ball = shape("sphere", {{"segments", std::int64_t{512}}});
+        const candela::Mesh ball = flat_mesh("sphere", {{"segments", std::int64_t{512}}});
         const auto before = threads();
         tree_of(ball);
         CHECK(threads() == before);
@@ -248,7 +244,7 @@ TEST_CASE("trees built at the same time give the same results as trees built one
     std::vector<candela::Mesh> meshes;
     for (const std::int64_t segments : {16, 40, 100, 160})
         for (const char* const name : {"sphere", "torus"})
-            meshes.push_back(shape(name, {{"segments", segments}}));
+            meshes.push_back(flat_mesh(name, {{"segments", segments}}));
     // Towards corners, where the shape of the tree decides which of several triangles a ray hits.
     const auto exits = [&](const candela::Mesh& mesh, const TriangleTree& tree) {
         std::vector<std::pair<std::uint32_t, float>> result;
