@@ -120,6 +120,7 @@ using candela::LightingBatch;
 using candela::ReflectedBatch;
 using candela::ReflectionModel;
 using candela::SurfaceBatch;
+using candela::VaryingParameter;
 
 // candela/shading_model.h
 using candela::MeshView;

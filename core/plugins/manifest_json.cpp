@@ -62,8 +62,11 @@ Json json_of(const Preset& p, const std::vector<Parameter>& parameters) {
     return json;
 }
 
-constexpr std::array<std::pair<const char*, bool SurfaceNeeds::*>, 3> k_surface_needs{
-    {{"tangent", &SurfaceNeeds::tangent}, {"uv", &SurfaceNeeds::uv}, {"position", &SurfaceNeeds::position}}};
+constexpr std::array<std::pair<const char*, bool SurfaceNeeds::*>, 4> k_surface_needs{
+    {{"tangent", &SurfaceNeeds::tangent},
+     {"uv", &SurfaceNeeds::uv},
+     {"position", &SurfaceNeeds::position},
+     {"varying", &SurfaceNeeds::varying}}};
 constexpr std::array<std::pair<const char*, bool ShadingNeeds::*>, 7> k_shading_needs{
     {{"face_normal", &ShadingNeeds::face_normal},
      {"vertex_normal", &ShadingNeeds::vertex_normal},

@@ -7,6 +7,7 @@
 #include <catch2/catch_test_macros.hpp>
 #include <iterator>
 #include <optional>
+#include <utility>
 
 import candela.api;
 
@@ -37,10 +38,12 @@ class ColorfulEnvironment final : public candela::Environment {
 };
 
 /// Without `color`, each point has its own.
-BatchSubject reflection_subject(const Values& values, std::optional<candela::Rgb> color = std::nullopt) {
+BatchSubject reflection_subject(const Values& values, std::optional<candela::Rgb> color = std::nullopt,
+                                std::vector<candela::VaryingParameter> varying = {}) {
     const std::shared_ptr<candela::ReflectionModel> model = make<candela::ReflectionModel>(values);
     const candela::SurfaceNeeds& needs = ::subject().surface_needs;
-    const auto surface = [needs, color](std::size_t count, const Arrays& in) {
+    const auto varied = std::make_shared<const std::vector<candela::VaryingParameter>>(std::move(varying));
+    const auto surface = [needs, color, varied](std::size_t count, const Arrays& in) {
         return candela::SurfaceBatch{
             .count = count,
             .normal = in.vec3(k_normal),
@@ -49,7 +52,8 @@ BatchSubject reflection_subject(const Values& values, std::optional<candela::Rgb
             .color = color.value_or(candela::Rgb{0.8f, 0.5f, 0.2f}),
             .position = in.vec3(k_position),
             .uv = needs.uv ? candela::ConstVec2Span{in[k_uv], in[k_uv + 1]} : candela::ConstVec2Span{},
-            .point_color = color ? candela::ConstVec3Span{} : in.vec3(k_color)};
+            .point_color = color ? candela::ConstVec3Span{} : in.vec3(k_color),
+            .varying = *varied};
     };
     const auto reflected = [](Arrays& out) {
         return candela::ReflectedBatch{
@@ -173,6 +177,10 @@ BatchSubject batch_subject(const Values& values) {
 
 BatchSubject subject_of_one_color(const Values& values, candela::Rgb color) {
     return reflection_subject(values, color);
+}
+
+BatchSubject subject_of_varying(const Values& values, std::vector<candela::VaryingParameter> varying) {
+    return reflection_subject(values, std::nullopt, std::move(varying));
 }
 
 Arrays outputs_of(const Call& call, const Arrays& in, std::size_t shift) {

@@ -31,6 +31,8 @@ struct BatchSubject {
 BatchSubject batch_subject(const Values& values);
 /// For a reflection model, on a surface of one colour: k_color is not read.
 BatchSubject subject_of_one_color(const Values& values, candela::Rgb color);
+/// For a reflection model, with parameters that differ from point to point; their values outlive the subject.
+BatchSubject subject_of_varying(const Values& values, std::vector<candela::VaryingParameter> varying);
 
 /// The interface's name for an input of this call, "to_observer.x".
 std::string name_of_input(const Call& call, std::size_t array);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "candela/color.h"
 #include "candela/math.h"
@@ -9,6 +10,13 @@
 #include "candela/plugin/export.h"
 
 namespace candela {
+
+/// A parameter, or one channel of it, that is different at each point.
+struct VaryingParameter {
+    std::size_t parameter = 0;      // index into the descriptor's parameters; of type real, rgb or color
+    std::size_t channel = 0;        // 0 to 2; 0 if it has one number
+    const float* values = nullptr;  // of each point, in the parameter's range, as ParamValue::number has them
+};
 
 /// Points on one object's surface. World space; all vectors are unit vectors that point away from the
 /// surface. A plugin declares its SurfaceNeeds in its descriptor.
@@ -21,6 +29,8 @@ struct SurfaceBatch {
     ConstVec3Span position{};     // metres
     ConstVec2Span uv{};           // texture coordinates; null unless needed
     ConstVec3Span point_color{};  // C_o of each point if the object has more than one colour; otherwise null
+    /// The others have the instance's values. Empty unless needed; each channel is listed at most once.
+    std::span<const VaryingParameter> varying{};
 };
 
 /// The light that one sample of a light source sends to each of the points.

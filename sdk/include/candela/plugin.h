@@ -66,16 +66,49 @@ class WithTables final : public Model {
     TableNumbers tables_;
 };
 
-/// Creates an instance from `prepare(params)`, with `params` filled according to `fields`.
-template <class Model, bool has_tables, class Params, std::size_t count, class Prepare>
-Instance* created(const std::array<Field<Params>, count>& fields, std::span<const ParamValue> values,
-                  Prepare prepare) {
+/// The parameters of a kernel, as they are.
+struct NoPreparation {
+    template <class Params>
+    CANDELA_KERNEL_INLINE static const Params& run(const Params& params) {
+        return params;
+    }
+};
+
+/// Whether instances of `Model` can evaluate the kernel with other parameters at each point. A Table has no
+/// values of points.
+template <class Model, class Params, class Preparation, const auto& fields>
+constexpr bool can_vary() {
+    if constexpr (have_tables(fields) || fields.empty()) {
+        return false;
+    } else {
+        // Not for a class that derives from such a model, and changes it.
+        return requires {
+            requires std::is_base_of_v<Model, typename Model::template Varying<Params, Preparation, fields>>;
+        };
+    }
+}
+
+/// The class of the instances of `Model`.
+template <class Model, class Params, class Preparation, const auto& fields>
+struct InstanceOf {
+    using type = Model;
+};
+template <class Model, class Params, class Preparation, const auto& fields>
+    requires(can_vary<Model, Params, Preparation, fields>())
+struct InstanceOf<Model, Params, Preparation, fields> {
+    using type = typename Model::template Varying<Params, Preparation, fields>;
+};
+
+/// Creates an instance of `Model` from what `Preparation` makes of the parameters, which `values` fill
+/// according to `fields`.
+template <class Model, class Params, class Preparation, const auto& fields>
+Instance* created(std::span<const ParamValue> values) {
     Params params = params_from(fields, values);
-    if constexpr (has_tables) {
+    if constexpr (have_tables(fields)) {
         static_assert(!std::is_final_v<Model>,
                       "a class whose parameters have tables is not final: its instances get their numbers");
-        TableNumbers tables(count);
-        for (std::size_t i = 0; i < count; ++i) {
+        TableNumbers tables(fields.size());
+        for (std::size_t i = 0; i < fields.size(); ++i) {
             tables[i] = fields[i].numbers_of(values[i]);
             if (tables[i].empty()) continue;
             Table table;
@@ -83,9 +116,11 @@ Instance* created(const std::array<Field<Params>, count>& fields, std::span<cons
             table.count = static_cast<int>(tables[i].size());
             params.*fields[i].table = table;
         }
-        return new WithTables<Model>(std::move(tables), prepare(params));
+        return new WithTables<Model>(std::move(tables), Preparation::run(params));
+    } else if constexpr (can_vary<Model, Params, Preparation, fields>()) {
+        return new typename Model::template Varying<Params, Preparation, fields>(params);
     } else {
-        return new Model(prepare(params));
+        return new Model(Preparation::run(params));
     }
 }
 
@@ -194,8 +229,9 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
 /// Exports a plugin of `kind_` whose instances are created by `new Model(params)`, with `params` filled
 /// according to `fields_`, an array of candela::sdk::Field. The other arguments initialise a
 /// candela::sdk::About.
-#define CANDELA_PLUGIN(kind_, Model, fields_, ...) \
-    CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, std::identity(), candela::KernelText{}, __VA_ARGS__)
+#define CANDELA_PLUGIN(kind_, Model, fields_, ...)                                                   \
+    CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, candela::sdk::NoPreparation, candela::KernelText{}, \
+                          __VA_ARGS__)
 
 #ifdef CANDELA_KERNEL_FILE
 // The assembler reads the file: C++ cannot yet.
@@ -222,7 +258,7 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
         template <class Params>                                                                              \
         static constexpr bool is_there = requires(const Params& params) { prefix_##_prepare(params); };      \
         template <class Params>                                                                              \
-        static auto run(const Params& params) {                                                              \
+        CANDELA_KERNEL_INLINE static auto run(const Params& params) {                                        \
             if constexpr (is_there<Params>) {                                                                \
                 return prefix_##_prepare(params);                                                            \
             } else {                                                                                         \
@@ -234,39 +270,37 @@ CANDELA_KERNEL_INLINE auto call(const Params& params, Arguments... arguments) {
     static_assert(candela::sdk::fill_all_members<Params_>(fields_),                                          \
                   "each member of a kernel's struct is one of the plugin's parameters");                     \
     CANDELA_EXPORT_PLUGIN(                                                                                   \
-        kind_, Model, fields_, prefix_##_preparation::run,                                                   \
+        kind_, Model, fields_, prefix_##_preparation,                                                        \
         (candela::sdk::kernel_text<                                                                          \
             std::remove_pointer_t<decltype(new Model(prefix_##_preparation::run(std::declval<Params_>())))>, \
             Params_, prefix_##_preparation::is_there<Params_>>(#prefix_, #Params_, fields_)),                \
         __VA_ARGS__)
 
-#define CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, prepare_, kernel_, ...)                              \
-    extern "C" CANDELA_EXPORT const char* candela_plugin_abi() { return CANDELA_ABI; }                    \
-    extern "C" CANDELA_EXPORT const candela::PluginDescriptor* candela_plugin_descriptor() {              \
-        static constexpr auto specs = candela::sdk::specs_of(fields_);                                    \
-        static const candela::sdk::About about = __VA_ARGS__;                                             \
-        using Made =                                                                                      \
-            std::remove_pointer_t<decltype(new Model(prepare_(candela::sdk::params_from(fields_, {}))))>; \
-        static const candela::PluginDescriptor descriptor{                                                \
-            .kind = candela::PluginKind::kind_,                                                           \
-            .name = CANDELA_PLUGIN_NAME,                                                                  \
-            .version = CANDELA_PLUGIN_VERSION,                                                            \
-            .title = about.title,                                                                         \
-            .summary = about.summary,                                                                     \
-            .formula = about.formula,                                                                     \
-            .reference = about.reference,                                                                 \
-            .parameters = specs,                                                                          \
-            .relations = about.relations,                                                                 \
-            .properties = about.properties,                                                               \
-            .presets = about.presets,                                                                     \
-            .formats = about.formats,                                                                     \
-            .has_ambient = candela::sdk::has_ambient<Made>(),                                             \
-            .surface_needs = candela::sdk::needs_of<candela::SurfaceNeeds, Made>(),                       \
-            .shading_needs = candela::sdk::shading_needs<Made>(),                                         \
-            .kernel = kernel_,                                                                            \
-            .create = [](std::span<const candela::ParamValue> values) -> candela::Instance* {             \
-                return candela::sdk::created<Made, candela::sdk::have_tables(fields_)>(                   \
-                    fields_, values, [](const auto& params) { return prepare_(params); });                \
-            }};                                                                                           \
-        return &descriptor;                                                                               \
+#define CANDELA_EXPORT_PLUGIN(kind_, Model, fields_, Preparation, kernel_, ...)                              \
+    extern "C" CANDELA_EXPORT const char* candela_plugin_abi() { return CANDELA_ABI; }                       \
+    extern "C" CANDELA_EXPORT const candela::PluginDescriptor* candela_plugin_descriptor() {                 \
+        static constexpr auto specs = candela::sdk::specs_of(fields_);                                       \
+        static const candela::sdk::About about = __VA_ARGS__;                                                \
+        using Params = std::remove_cvref_t<decltype(candela::sdk::params_from(fields_, {}))>;                \
+        using Model_ = std::remove_pointer_t<decltype(new Model(Preparation::run(std::declval<Params>())))>; \
+        using Made = candela::sdk::InstanceOf<Model_, Params, Preparation, fields_>::type;                   \
+        static const candela::PluginDescriptor descriptor{                                                   \
+            .kind = candela::PluginKind::kind_,                                                              \
+            .name = CANDELA_PLUGIN_NAME,                                                                     \
+            .version = CANDELA_PLUGIN_VERSION,                                                               \
+            .title = about.title,                                                                            \
+            .summary = about.summary,                                                                        \
+            .formula = about.formula,                                                                        \
+            .reference = about.reference,                                                                    \
+            .parameters = specs,                                                                             \
+            .relations = about.relations,                                                                    \
+            .properties = about.properties,                                                                  \
+            .presets = about.presets,                                                                        \
+            .formats = about.formats,                                                                        \
+            .has_ambient = candela::sdk::has_ambient<Made>(),                                                \
+            .surface_needs = candela::sdk::needs_of<candela::SurfaceNeeds, Made>(),                          \
+            .shading_needs = candela::sdk::shading_needs<Made>(),                                            \
+            .kernel = kernel_,                                                                               \
+            .create = candela::sdk::created<Model_, Params, Preparation, fields_>};                          \
+        return &descriptor;                                                                                  \
     }

@@ -9,6 +9,7 @@
 
 #include "candela/extensions.h"
 #include "candela/kernel/simd_dispatch.h"
+#include "candela/materials.h"
 #include "candela/plugin.h"
 #include "candela/punctual.h"
 #include "candela/reflection_model.h"
@@ -50,10 +51,6 @@ CANDELA_KERNEL_INLINE SurfaceBatch part_of(const SurfaceBatch& surface, std::siz
     if (part.uv) part.uv = part.uv.from(first);
     return part;
 }
-
-/// The number of points that pass through a loop at once: few enough to stay in the first-level cache, enough
-/// to interleave four vectors.
-inline constexpr std::size_t k_pass_size = 64;
 
 struct PassVectors {
     alignas(64) float x[k_pass_size], y[k_pass_size], z[k_pass_size];
@@ -114,45 +111,50 @@ class SurfacePasses {
     float u_[k_pass_size], v_[k_pass_size];
 };
 
-template <class Material, auto reflect, SurfaceReads reads>
+/// `Materials`: UniformMaterial or VaryingMaterials.
+template <class Materials, auto reflect, SurfaceReads reads>
 struct ReflectLoop {
-    CANDELA_KERNEL_INLINE static void add(const Material& material, const SurfaceBatch& surface,
+    CANDELA_KERNEL_INLINE static void add(const auto& materials, const SurfaceBatch& surface,
                                           ConstVec3Span to_light, ConstVec3Span diffuse,
                                           ConstVec3Span specular, Vec3Span to_diffuse, Vec3Span to_specular) {
         const std::size_t count = surface.count;
         CANDELA_VECTORIZE_CHAIN
         for (std::size_t i = 0; i < count; ++i) {
             const kernel::Surface s = surface_at<reads>(surface, i);
-            const kernel::Reflected r = call<reflect>(material, s, load(to_light, i));
+            const kernel::Reflected r = call<reflect>(materials[i], s, load(to_light, i));
             add_product(to_diffuse, i, r.diffuse, load(diffuse, i));
             add_product(to_specular, i, r.specular, load(specular, i));
         }
     }
 
-    CANDELA_BATCH_LOOP static void run(Material material, const SurfacePasses* passes, LightingBatch light,
+    CANDELA_BATCH_LOOP static void run(Materials materials, const SurfacePasses* passes, LightingBatch light,
                                        ReflectedBatch reflected) {
+        typename Materials::Pass pass;
         for (std::size_t first = 0; first < passes->count(); first += k_pass_size)
-            add(material, passes->from(first), light.to_light.from(first), light.diffuse.from(first),
-                light.specular.from(first), reflected.diffuse.from(first), reflected.specular.from(first));
+            add(materials.pass(first, pass), passes->from(first), light.to_light.from(first),
+                light.diffuse.from(first), light.specular.from(first), reflected.diffuse.from(first),
+                reflected.specular.from(first));
     }
 };
 
-template <class Material, auto reflect_ambient, SurfaceReads reads>
+template <class Materials, auto reflect_ambient, SurfaceReads reads>
 struct ReflectAmbientLoop {
-    CANDELA_KERNEL_INLINE static void add(const Material& material, const SurfaceBatch& surface,
+    CANDELA_KERNEL_INLINE static void add(const auto& materials, const SurfaceBatch& surface,
                                           ConstVec3Span ambient, Vec3Span to_ambient) {
         const std::size_t count = surface.count;
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < count; ++i) {
-            const vec3 k = call<reflect_ambient>(material, surface_at<reads>(surface, i));
+            const vec3 k = call<reflect_ambient>(materials[i], surface_at<reads>(surface, i));
             add_product(to_ambient, i, k, load(ambient, i));
         }
     }
 
-    CANDELA_BATCH_LOOP static void run(Material material, const SurfacePasses* passes, ConstVec3Span ambient,
-                                       ReflectedBatch reflected) {
+    CANDELA_BATCH_LOOP static void run(Materials materials, const SurfacePasses* passes,
+                                       ConstVec3Span ambient, ReflectedBatch reflected) {
+        typename Materials::Pass pass;
         for (std::size_t first = 0; first < passes->count(); first += k_pass_size)
-            add(material, passes->from(first), ambient.from(first), reflected.ambient.from(first));
+            add(materials.pass(first, pass), passes->from(first), ambient.from(first),
+                reflected.ambient.from(first));
     }
 };
 
@@ -210,7 +212,7 @@ CANDELA_KERNEL_INLINE void look_at(PunctualLight light, const ConstVec3Span& pos
     }
 }
 
-template <class Material, auto reflect, auto reflect_ambient, SurfaceReads reads>
+template <class Materials, auto reflect, auto reflect_ambient, SurfaceReads reads>
 struct ReflectPunctualLoop {
     CANDELA_KERNEL_INLINE static kernel::Surface point(const SurfaceBatch& surface,
                                                        const PunctualBatch& batch, std::size_t i) {
@@ -220,7 +222,7 @@ struct ReflectPunctualLoop {
     }
 
     /// The pass begins at point `first` of a batch of `all`.
-    CANDELA_KERNEL_INLINE static void add_lights(const Material& material, const SurfaceBatch& surface,
+    CANDELA_KERNEL_INLINE static void add_lights(const auto& materials, const SurfaceBatch& surface,
                                                  const PunctualLighting& lighting, std::size_t first,
                                                  std::size_t all, Vec3Span intensity) {
         const vec3 ambient = kernel_vector(lighting.ambient), observer = kernel_vector(lighting.observer);
@@ -229,7 +231,7 @@ struct ReflectPunctualLoop {
         CANDELA_VECTORIZE
         for (std::size_t i = 0; i < k_pass_size; ++i) {
             store(batch.to_observer, i, kernel::normalize(observer - load(eye_position, i)));
-            store(intensity, i, call<reflect_ambient>(material, point(surface, batch, i)) * ambient);
+            store(intensity, i, call<reflect_ambient>(materials[i], point(surface, batch, i)) * ambient);
         }
         for (std::size_t k = 0; k < lighting.lights.size(); ++k) {
             const PunctualLight light = lighting.lights[k];
@@ -239,7 +241,7 @@ struct ReflectPunctualLoop {
             CANDELA_VECTORIZE_FOUR
             for (std::size_t i = 0; i < k_pass_size; ++i) {
                 const kernel::Reflected r =
-                    call<reflect>(material, point(surface, batch, i), load(batch.to_light, i));
+                    call<reflect>(materials[i], point(surface, batch, i), load(batch.to_light, i));
                 add_product(intensity, i, r.diffuse * diffuse + r.specular * specular,
                             vec3(batch.attenuation[i]));
             }
@@ -247,13 +249,17 @@ struct ReflectPunctualLoop {
     }
 
     /// `rest`: the reflection of the last pass, if the batch does not fill it.
-    CANDELA_BATCH_LOOP static void run(Material material, const SurfacePasses* passes,
+    CANDELA_BATCH_LOOP static void run(Materials materials, const SurfacePasses* passes,
                                        PunctualLighting lighting, Vec3Span intensity, PassVectors* rest) {
+        typename Materials::Pass pass;
         for (std::size_t first = 0; first < passes->count(); first += k_pass_size)
-            add_lights(material, passes->from(first), lighting, first, passes->count(),
+            add_lights(materials.pass(first, pass), passes->from(first), lighting, first, passes->count(),
                        first < passes->whole() ? intensity.from(first) : rest->span());
     }
 };
+
+template <class Model, class Params, class Preparation, const auto& fields>
+class VaryingReflection;
 
 template <class Material, auto reflect_, auto reflect_ambient_, SurfaceReads reads = reads_no_more>
 class KernelReflection : public ReflectionModel, public AllLightsReflection {
@@ -265,37 +271,103 @@ class KernelReflection : public ReflectionModel, public AllLightsReflection {
         kernel_function<Material, reflect_>("reflect"),
         kernel_function<Material, reflect_ambient_>("reflect_ambient")};
 
-    explicit KernelReflection(const Material& material) : material_(material) {}
+    /// The same model, whose parameters may differ from point to point. See VaryingReflection.
+    template <class Params, class Preparation, const auto& fields>
+    using Varying = VaryingReflection<KernelReflection, Params, Preparation, fields>;
+
+    explicit KernelReflection(const Material& material) : material_{material} {}
 
     void reflect(const SurfaceBatch& surface, const LightingBatch& light,
                  const ReflectedBatch& reflected) const override {
-        const SurfacePasses passes(surface);
-        const SurfacePasses* const all = &passes;
-        multiversion<ReflectLoop<Material, reflect_, reads>>(material_, all, light, reflected);
+        reflect_with(material_, surface, light, reflected);
     }
 
     void reflect_ambient(const SurfaceBatch& surface, const ConstVec3Span& ambient,
                          const ReflectedBatch& reflected) const override {
-        const SurfacePasses passes(surface);
-        const SurfacePasses* const all = &passes;
-        multiversion<ReflectAmbientLoop<Material, reflect_ambient_, reads>>(material_, all, ambient,
-                                                                            reflected);
+        reflect_ambient_with(material_, surface, ambient, reflected);
     }
 
     void reflect_all_lights(const SurfaceBatch& surface, const PunctualLighting& lighting,
                             const Vec3Span& intensity) const override {
+        reflect_all_lights_with(material_, surface, lighting, intensity);
+    }
+
+  protected:
+    template <class Materials>
+    static void reflect_with(const Materials& materials, const SurfaceBatch& surface,
+                             const LightingBatch& light, const ReflectedBatch& reflected) {
+        const SurfacePasses passes(surface);
+        const SurfacePasses* const all = &passes;
+        multiversion<ReflectLoop<Materials, reflect_, reads>>(materials, all, light, reflected);
+    }
+
+    template <class Materials>
+    static void reflect_ambient_with(const Materials& materials, const SurfaceBatch& surface,
+                                     const ConstVec3Span& ambient, const ReflectedBatch& reflected) {
+        const SurfacePasses passes(surface);
+        const SurfacePasses* const all = &passes;
+        multiversion<ReflectAmbientLoop<Materials, reflect_ambient_, reads>>(materials, all, ambient,
+                                                                             reflected);
+    }
+
+    template <class Materials>
+    static void reflect_all_lights_with(const Materials& materials, const SurfaceBatch& surface,
+                                        const PunctualLighting& lighting, const Vec3Span& intensity) {
         const SurfacePasses passes(surface);
         const SurfacePasses* const all = &passes;
         PassVectors rest;
         PassVectors* const to_rest = &rest;
-        multiversion<ReflectPunctualLoop<Material, reflect_, reflect_ambient_, reads>>(
-            material_, all, lighting, intensity, to_rest);
+        multiversion<ReflectPunctualLoop<Materials, reflect_, reflect_ambient_, reads>>(
+            materials, all, lighting, intensity, to_rest);
         for (std::size_t i = passes.whole(); i < surface.count; ++i)
             store(intensity, i, load(rest, i - passes.whole()));
     }
 
   private:
-    Material material_;
+    UniformMaterial<Material> material_;
+};
+
+/// `Model`, a KernelReflection, with its parameters: where a batch has varying ones, it evaluates the kernel
+/// with those of each point.
+template <class Model, class Params, class Preparation, const auto& fields>
+class VaryingReflection final : public Model {
+  public:
+    static constexpr SurfaceNeeds k_needs = [] {
+        SurfaceNeeds needs = Model::k_needs;
+        needs.varying = true;
+        return needs;
+    }();
+
+    explicit VaryingReflection(const Params& params) : Model(Preparation::run(params)), params_(params) {}
+
+    void reflect(const SurfaceBatch& surface, const LightingBatch& light,
+                 const ReflectedBatch& reflected) const override {
+        if (surface.varying.empty()) return Model::reflect(surface, light, reflected);
+        const std::vector<VaryingNumber> numbers = varying_numbers(fields, surface.varying);
+        Model::reflect_with(materials(surface, numbers), surface, light, reflected);
+    }
+
+    void reflect_ambient(const SurfaceBatch& surface, const ConstVec3Span& ambient,
+                         const ReflectedBatch& reflected) const override {
+        if (surface.varying.empty()) return Model::reflect_ambient(surface, ambient, reflected);
+        const std::vector<VaryingNumber> numbers = varying_numbers(fields, surface.varying);
+        Model::reflect_ambient_with(materials(surface, numbers), surface, ambient, reflected);
+    }
+
+    void reflect_all_lights(const SurfaceBatch& surface, const PunctualLighting& lighting,
+                            const Vec3Span& intensity) const override {
+        if (surface.varying.empty()) return Model::reflect_all_lights(surface, lighting, intensity);
+        const std::vector<VaryingNumber> numbers = varying_numbers(fields, surface.varying);
+        Model::reflect_all_lights_with(materials(surface, numbers), surface, lighting, intensity);
+    }
+
+  private:
+    VaryingMaterials<Params, Preparation> materials(const SurfaceBatch& surface,
+                                                    const std::vector<VaryingNumber>& numbers) const {
+        return {params_, numbers.data(), numbers.size(), surface.count};
+    }
+
+    Params params_;
 };
 
 }  // namespace candela::sdk

@@ -11,6 +11,8 @@ struct SurfaceNeeds {
     /// Its kernel reads Surface::position; generated programs depend on it. SurfaceBatch::position is always
     /// filled.
     bool position = false;
+    /// SurfaceBatch::varying: the model's parameters may be different at each point.
+    bool varying = false;
 
     friend bool operator==(const SurfaceNeeds&, const SurfaceNeeds&) = default;
 };
