@@ -151,6 +151,7 @@ using candela::ExportedSample;
 using candela::ExportedScene;
 using candela::ExportedShading;
 using candela::ExportedTexture;
+using candela::ExportedTexturedNumber;
 using candela::ExportedTextureLevel;
 using candela::ExportedValues;
 using candela::FileSink;

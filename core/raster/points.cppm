@@ -6,6 +6,7 @@ module;
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 export module candela.raster:points;
 
@@ -39,10 +40,11 @@ struct CANDELA_EXPORT SurfacePoints {
     AlignedVector<float> u, v;                    // filled if requested and the mesh has them, otherwise zero
     AlignedVector<float> dudx, dvdx, dudy, dvdy;  // per pixel to the right and downwards; zero if unknown
     Vec3Arrays dpdu, dpdv;
-    Vec3Arrays color;                           // the mesh's; filled if has_color
-    bool has_color = false;                     // the mesh has colours, and they were requested
-    std::array<Vec3Arrays, 3> corner_position;  // of each point's triangle; empty until first requested
-    std::array<Vec3Arrays, 3> corner_normal;    // unit
+    Vec3Arrays color;                              // the mesh's; filled if has_color
+    bool has_color = false;                        // the mesh has colours, and they were requested
+    std::array<Vec3Arrays, 3> corner_position;     // of each point's triangle; empty until first requested
+    std::array<Vec3Arrays, 3> corner_normal;       // unit
+    std::vector<AlignedVector<float>> parameters;  // of the material, where they vary (candela.shading)
 };
 
 /// The attributes of a point that are needed. Others may be filled as well.

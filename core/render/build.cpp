@@ -5,7 +5,6 @@ module;
 #include <algorithm>
 #include <cstddef>
 #include <exception>
-#include <map>
 #include <memory>
 #include <new>
 #include <optional>
@@ -16,6 +15,8 @@ module;
 
 module candela.render;
 
+import :reported;
+import :scene_textures;
 import candela.api;
 import candela.geometry;
 import candela.plugins;
@@ -108,13 +109,7 @@ class SceneBuilder {
 
     template <class Work>
     void guarded(const std::string& whose, const SourceLocation& place, Work work) {
-        try {
-            work();
-        } catch (const Error& problem) {
-            const std::string message = fmt::format("{}: {}", whose, problem.what());
-            problem.category() == ErrorCategory::invalid_scene ? diagnostics_.error(place, message)
-                                                               : diagnostics_.failure(place, message);
-        }
+        reported(diagnostics_, whose, place, work);
     }
 
     template <class Interface>
@@ -140,7 +135,7 @@ class SceneBuilder {
             if (const Object* const old = object_before(i);
                 old != nullptr && old->color == object.color && old->color_texture == object.color_texture &&
                 old->color_texture_wrap == object.color_texture_wrap && old->shading == object.shading &&
-                old->reflection == object.reflection) {
+                old->reflection == object.reflection && old->textures == object.textures) {
                 solid.surface = std::move(before_->built.objects[i].surface);
                 continue;
             }
@@ -155,41 +150,14 @@ class SceneBuilder {
         }
     }
 
-    /// Problems are reported for an object at the place of its texture. Objects share pictures.
     void make_textures() {
-        for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
-            const Object& object = scene_.objects[i];
-            if (object.color_texture.empty() || built_.objects[i].surface.color_texture != nullptr) continue;
-            const Object* const old = object_before(i);
-            if (old != nullptr && old->color_texture == object.color_texture) {
-                built_.objects[i].surface.color_texture = before_->built.objects[i].surface.color_texture;
-                continue;
-            }
-            guarded("object " + object.label.text(), object.texture_place, [&] {
-                const auto [known, is_new] = textures_.try_emplace(object.color_texture);
-                if (is_new) {
-                    const TextureImage read = read_texture(object.color_texture, registry_, encoding());
-                    known->second = read.mip_map;
-                    if (read.was_clamped)
-                        diagnostics_.warning(object.texture_place,
-                                             fmt::format("the texture '{}' has intensities above 1, which "
-                                                         "are clamped: a surface cannot reflect more",
-                                                         object.color_texture));
-                }
-                built_.objects[i].surface.color_texture = known->second;
-            });
+        SceneTextures textures(registry_, diagnostics_, encoding());
+        for (std::size_t i = 0; before_ != nullptr && i < scene_.objects.size(); ++i) {
+            textures.keep(*object_before(i), before_->built.objects[i].surface);
+            textures.keep(scene_.objects[i], built_.objects[i].surface);  // moved from before
         }
-    }
-
-    void require_texture_coordinates(std::size_t i) {
-        const Object& object = scene_.objects[i];
-        // Read errors have been reported already.
-        if (built_.objects[i].surface.color_texture == nullptr) return;
-        if (!placed_[i] || !placed_[i]->mesh.u.empty()) return;
-        diagnostics_.error(
-            object.texture_place,
-            fmt::format("object {} has no texture coordinates, which a texture needs", object.label.text()),
-            "remove color_texture, or give the shape texture coordinates");
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i)
+            textures.make(scene_.objects[i], built_.objects[i].surface);
     }
 
     void make_environment() {
@@ -253,7 +221,9 @@ class SceneBuilder {
                 });
                 shapes[i].reset();  // frees a file's triangles before the next file is read
                 if (placed_[i]) warnings_[i] = placed_[i]->warnings;
-                if (has_surface(i)) require_texture_coordinates(i);
+                if (has_surface(i) && built_.objects[i].surface.has_textures() && placed_[i] &&
+                    placed_[i]->mesh.u.empty())
+                    require_texture_coordinates(object, diagnostics_);
             }
             say_once(object, warnings_[i]);
             count_step();
@@ -414,7 +384,6 @@ class SceneBuilder {
     std::vector<std::optional<PlacedShape>> placed_;
     std::vector<std::vector<std::string>> warnings_;  // of the objects' shapes
     std::set<std::string> said_;
-    std::map<std::string, std::shared_ptr<const MipMap>> textures_;  // by file
 };
 
 }  // namespace

@@ -63,7 +63,7 @@ class FragmentTracer {
   private:
     PointTrace trace_point(std::uint32_t object) {
         const RenderObject& solid = scene_.objects[object];
-        apply_texture(solid.surface, points_);
+        apply_textures(solid.surface, points_);
         return shader_.trace(solid.surface, shaded_object(scene_, object), points_);
     }
 

@@ -191,7 +191,7 @@ ProjectedMesh TileShader::mesh_of(const FragmentList& fragments) const {
 void TileShader::shade_points(std::uint32_t object, const Vec3Span& intensity) {
     const RenderObject& solid = scene_->objects[object];
     const ShadedObject shaded = shaded_object(*scene_, object);
-    apply_texture(solid.surface, points_);
+    apply_textures(solid.surface, points_);
     if (term_ == Term::intensity) {
         brightest_ = std::max(brightest_, surface_shader_.shade(solid.surface, shaded, points_, intensity));
     } else {

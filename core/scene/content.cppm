@@ -3,6 +3,7 @@ module;
 
 #include "candela/plugin/export.h"
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -146,6 +147,51 @@ enum class TextureWrap : int {
     clamp,   // the colours at its edge
 };
 
+/// The channels of a picture that a parameter takes.
+enum class TextureChannel : int {
+    rgb,  // all three; a parameter with one number takes the red one
+    red,
+    green,
+    blue,
+};
+
+/// The meaning of the numbers in a picture.
+enum class TextureEncoding : int {
+    automatic,  // three channels are decoded like colours, one is linear
+    linear,
+    srgb,
+};
+
+/// How a picture is placed on texture coordinates: they are scaled, rotated, then moved.
+struct TextureTransform {
+    std::array<float, 2> scale{1, 1};
+    float rotation = 0;  // degrees, counter-clockwise about (0, 0)
+    std::array<float, 2> offset{0, 0};
+
+    friend bool operator==(const TextureTransform&, const TextureTransform&) = default;
+};
+
+/// A parameter of an object's reflection model whose values come from a picture: offset + scale * texel at
+/// each point, clamped to the parameter's range.
+struct ParameterTexture {
+    std::string parameter{};
+    std::string file{};  // absolute path
+    TextureChannel channel = TextureChannel::rgb;
+    Vec3 scale{1, 1, 1};
+    Vec3 offset{};
+    TextureWrap wrap = TextureWrap::repeat;
+    TextureEncoding encoding = TextureEncoding::automatic;
+    TextureTransform transform{};
+    SourceLocation place{};
+
+    /// Ignores positions in the file.
+    friend inline bool operator==(const ParameterTexture& a, const ParameterTexture& b) {
+        return a.parameter == b.parameter && a.file == b.file && a.channel == b.channel &&
+               a.scale == b.scale && a.offset == b.offset && a.wrap == b.wrap && a.encoding == b.encoding &&
+               a.transform == b.transform;
+    }
+};
+
 struct Object {
     Label label;
     Model shape;
@@ -159,6 +205,7 @@ struct Object {
     bool transmits_light = true;  // if its reflection model is transparent
     Model shading;
     Model reflection;
+    std::vector<ParameterTexture> textures{};  // of the reflection model's parameters, in their order
     SourceLocation place;
     SourceLocation position_place{};  // of its 'position', or of the whole object
     SourceLocation texture_place{};   // of its 'color_texture', or of the whole object
@@ -169,7 +216,7 @@ struct Object {
                a.color_texture == b.color_texture && a.color_texture_wrap == b.color_texture_wrap &&
                a.encloses == b.encloses && a.casts_shadows == b.casts_shadows &&
                a.receives_shadows == b.receives_shadows && a.transmits_light == b.transmits_light &&
-               a.shading == b.shading && a.reflection == b.reflection;
+               a.shading == b.shading && a.reflection == b.reflection && a.textures == b.textures;
     }
 };
 

@@ -123,34 +123,40 @@ Model ModelChooser::shading_for(const TableNode& object) {
     return {shading_->name, shading_parameters_ ? *shading_parameters_ : ParamSet(plugin->schema)};
 }
 
-Model ModelChooser::reflection_for(const TableNode& object, const std::string& label,
-                                   const SourceLocation& place) {
-    static const TableNode k_empty;
+void ModelChooser::set_reflection(Object& to, const TableNode& object, const std::string& label) {
     const TableNode::Entry* const entry = object.find("material");
     if (entry != nullptr && entry->node.table() == nullptr) {
         tables_.diagnostics().error(
             entry->node.place,
             fmt::format("'material' is {}; expected the table [object.material]", description(entry->node)));
-        return {};
+        return;
     }
     const auto own = named_by(object, "reflection", request_.reflection);
     const auto& model = own ? own : reflection_;
-    if (!model) return {};
+    if (!model) return;
     // A missing model has been reported with [reflection], if that names it.
     const PluginFile* const plugin = own ? tables_.known(PluginKind::reflection, own->name, own->place)
                                          : tables_.registry().find(PluginKind::reflection, model->name);
-    if (plugin == nullptr) return {};
-    const TableNode& material = entry != nullptr ? *entry->node.table() : k_empty;
+    if (plugin == nullptr) return;
+    TableNode material = entry != nullptr ? *entry->node.table() : TableNode();
     const TableContext context{fmt::format("[object.material] of {}", label),
                                {Help::Topic::plugin, plugin_id(PluginKind::reflection, model->name)},
-                               entry != nullptr ? entry->key_place : place,
+                               entry != nullptr ? entry->key_place : to.place,
                                "",
                                hints_for("material", tables_.registry())};
     report_unknown_material_keys(material, *plugin, context,
                                  request_.reflection ? model_in_scene(object) : std::nullopt);
-    return {model->name, read_parameters(material, plugin->schema, context, tables_.diagnostics(),
-                                         plugin->manifest.relations)
-                             .set};
+    to.textures = take_textures(material, *plugin, context.where);
+    // A texture that is white somewhere is no reason to warn.
+    std::vector<Relation> relations = plugin->manifest.relations;
+    std::erase_if(relations, [&](const Relation& r) {
+        return r.only_warns && std::ranges::any_of(to.textures, [&](const ParameterTexture& t) {
+                   return t.parameter == r.left || t.parameter == r.right;
+               });
+    });
+    to.reflection = {
+        model->name,
+        read_parameters(material, plugin->schema, context, tables_.diagnostics(), relations).set};
 }
 
 /// The reflection model of an object according to the scene, whatever a setting says.

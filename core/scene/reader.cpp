@@ -242,7 +242,7 @@ class Reader {
         own_tables().object.assign(&table, own.set, object);
         auto shape = read_typed("object", PluginKind::shape, table, own.set, context, {"material"});
         object.shading = models.shading_for(table);
-        object.reflection = models.reflection_for(table, short_text(object.label), place);
+        models.set_reflection(object, table, short_text(object.label));
         if (!shape) return;
         // Its triangles can be checked whatever else is wrong with it.
         const bool has_known_triangles = own.are_valid({"position", "rotation", "scale", "encloses"}) &&
@@ -289,6 +289,7 @@ std::vector<std::filesystem::path> input_files(const SceneDraft& draft) {
     for (const LightSource& light : scene.lights) add_files(light.model, files);
     for (const Object& object : scene.objects) {
         if (!object.color_texture.empty()) files.emplace_back(object.color_texture);
+        for (const ParameterTexture& texture : object.textures) files.emplace_back(texture.file);
         for (const Model* const model : {&object.shape, &object.shading, &object.reflection})
             add_files(*model, files);
     }

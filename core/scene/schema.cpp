@@ -197,6 +197,51 @@ Table<Object> object() {
                &Model::name)}};
 }
 
+Table<TextureTransform> texture_transform() {
+    return {
+        {.name = "transform",
+         .title = "transform",
+         .meaning = "how the picture is placed on the texture coordinates: they are scaled, rotated, then "
+                    "moved; optional"},
+        {pair("scale", "along u and v: 2 repeats the picture twice", &TextureTransform::scale)
+             .omitted_by_default(),
+         field(Type::real, "rotation", "counter-clockwise about (0, 0)", &TextureTransform::rotation)
+             .unit("deg")
+             .omitted_by_default(),
+         pair("offset", "added along u and v", &TextureTransform::offset).omitted_by_default()}};
+}
+
+Table<ParameterTexture> texture() {
+    return {
+        {.name = "texture",
+         .title = "a texture",
+         .meaning = "a picture from which a parameter of a reflection model takes its value at each point: "
+                    "offset + scale * texel, within the parameter's range",
+         .tables = {texture_transform().about()}},
+        {field(Type::file, "texture", "the picture, placed by the shape's texture coordinates",
+               &ParameterTexture::file)
+             .required()
+             .placed(&ParameterTexture::place),
+         choice({"rgb", "r", "g", "b"}, "channel",
+                "what the parameter takes: all channels, or one; a parameter with one number takes the red "
+                "one unless told",
+                &ParameterTexture::channel)
+             .omitted_by_default(),
+         field(Type::rgb, "scale", "multiplies the picture; one number or three", &ParameterTexture::scale)
+             .omitted_by_default(),
+         field(Type::rgb, "offset", "added to the picture; one number or three", &ParameterTexture::offset)
+             .omitted_by_default(),
+         choice({"repeat", "clamp"}, "wrap",
+                "beyond the picture's edges: repeat it, or continue the values at its edges",
+                &ParameterTexture::wrap)
+             .omitted_by_default(),
+         choice({"auto", "linear", "srgb"}, "encoding",
+                "what its numbers mean: linear values, or sRGB like those of a photograph; auto: sRGB "
+                "where a parameter takes three channels, linear where it takes one",
+                &ParameterTexture::encoding)
+             .omitted_by_default()}};
+}
+
 Table<Orbit> orbit() {
     return {{.name = "orbit",
              .title = "[animation.orbit]",
@@ -250,6 +295,8 @@ const OwnTables& own_tables() {
                                     .reflection = reflection(),
                                     .light = light(),
                                     .object = object(),
+                                    .texture = texture(),
+                                    .texture_transform = texture_transform(),
                                     .orbit = orbit(),
                                     .track = track(),
                                     .animation = animation()};
@@ -281,6 +328,13 @@ std::span<const TableSchema> scene_schema() {
         own.object.about(),  own.animation.about(),
     };
     return k_tables;
+}
+
+const TableSchema& texture_schema() { return own_tables().texture.about(); }
+
+bool takes_texture(const Manifest& plugin, const Parameter& parameter) {
+    return plugin.kind == PluginKind::reflection && plugin.surface_needs.varying &&
+           (parameter.type == Type::real || parameter.type == Type::rgb || parameter.type == Type::color);
 }
 
 }  // namespace candela

@@ -40,6 +40,11 @@ struct TableSchema {
 /// The tables of the scene file, in the order in which people write them.
 CANDELA_EXPORT std::span<const TableSchema> scene_schema();
 
+/// The table that a parameter of a reflection model may have instead of a value.
+CANDELA_EXPORT const TableSchema& texture_schema();
+/// Whether a parameter of a plugin may have it.
+CANDELA_EXPORT bool takes_texture(const Manifest& plugin, const Parameter& parameter);
+
 /// The keys before all tables; its name is empty.
 CANDELA_EXPORT const TableSchema& top_schema();
 

@@ -31,7 +31,9 @@ constexpr std::string_view k_observer_table = "the camera is the table [observer
 constexpr std::string_view k_materials = "a material is the table [object.material], below its [[object]]";
 constexpr std::string_view k_size = "write width and height";
 constexpr std::string_view k_name_of_image = "-o gives the picture's name and format";
-constexpr std::string_view k_one_texture = "the only texture is for the colour: color_texture";
+constexpr std::string_view k_no_bumps = "textures are for colours and for parameters of materials";
+constexpr std::string_view k_parameter_texture =
+    "write a table in [object.material], such as roughness = { texture = \"r.png\" }";
 constexpr std::string_view k_shape_size = "an object's size is its 'scale'";
 constexpr std::string_view k_cone = "write inner_angle and outer_angle, half-angles in degrees";
 
@@ -180,13 +182,13 @@ constexpr auto k_words = std::to_array<Word>({
     {"object", "diffuse_texture", "color_texture"},
     {"object", "base_color_texture", "color_texture"},
     {"object", "texture_wrap", "color_texture_wrap"},
-    {"object", "bump", k_one_texture},
-    {"object", "bump_map", k_one_texture},
-    {"object", "normal_map", k_one_texture},
-    {"object", "normal_texture", k_one_texture},
-    {"object", "metallic_texture", k_one_texture},
-    {"object", "roughness_texture", k_one_texture},
-    {"object", "specular_texture", k_one_texture},
+    {"object", "bump", k_no_bumps},
+    {"object", "bump_map", k_no_bumps},
+    {"object", "normal_map", k_no_bumps},
+    {"object", "normal_texture", k_no_bumps},
+    {"object", "metallic_texture", k_parameter_texture},
+    {"object", "roughness_texture", k_parameter_texture},
+    {"object", "specular_texture", k_parameter_texture},
     {"object", "albedo", "color"},
     {"object", "base_color", "color"},
     {"object", "diffuse_color", "color"},
@@ -218,9 +220,12 @@ constexpr auto k_words = std::to_array<Word>({
     {"material", "map", "the texture is the object's: 'color_texture' in [[object]]"},
     {"material", "map_kd", "the texture is the object's: 'color_texture' in [[object]]"},
     {"material", "diffuse_texture", "the texture is the object's: 'color_texture' in [[object]]"},
-    {"material", "bump", k_one_texture},
-    {"material", "normal_map", k_one_texture},
-    {"material", "normal_texture", k_one_texture},
+    {"material", "metallic_texture", k_parameter_texture},
+    {"material", "roughness_texture", k_parameter_texture},
+    {"material", "specular_texture", k_parameter_texture},
+    {"material", "bump", k_no_bumps},
+    {"material", "normal_map", k_no_bumps},
+    {"material", "normal_texture", k_no_bumps},
     {"material", "model", "the model is the object's: 'reflection' in [[object]]"},
     {"material", "type", "the model is the object's: 'reflection' in [[object]]"},
 });

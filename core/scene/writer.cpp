@@ -88,9 +88,15 @@ class Writer {
         entries_.clear();
     }
 
-    void add_parameters(const ParamSet& values, const std::string& where) {
+    void add_parameters(const ParamSet& values, const std::string& where,
+                        const std::vector<ParameterTexture>& textures = {}) {
         for (std::size_t i = 0; i < values.schema().size(); ++i) {
             const Parameter& p = values.schema()[i];
+            const auto texture = std::ranges::find(textures, p.name, &ParameterTexture::parameter);
+            if (texture != textures.end()) {
+                add(p.name, texture_text(*texture));
+                continue;
+            }
             const std::optional<Value>& value = values.get(i);
             if (!value) cannot_say(fmt::format("{}: '{}' has no value", where, p.name));
             // An optional file without a value is omitted.
@@ -184,8 +190,28 @@ class Writer {
         end();
         if (object.reflection.parameters.schema().empty()) return;
         text_ += "[object.material]\n";
-        add_parameters(object.reflection.parameters, object.label.text());
+        add_parameters(object.reflection.parameters, object.label.text(), object.textures);
         end();
+    }
+
+    /// An inline table of what differs from the defaults.
+    template <class T>
+    static std::string inline_entries(const Table<T>& table, const T& from) {
+        std::string entries;
+        for (const Field<T>& field : table.fields()) {
+            const Value value = field.get(from);
+            if (value == field.parameter.default_value) continue;
+            entries += fmt::format("{}{} = {}", entries.empty() ? "" : ", ", field.parameter.name,
+                                   value_text(value, field.parameter.type));
+        }
+        return entries;
+    }
+
+    static std::string texture_text(const ParameterTexture& texture) {
+        std::string entries = inline_entries(own_tables().texture, texture);
+        const std::string transform = inline_entries(own_tables().texture_transform, texture.transform);
+        if (!transform.empty()) entries += fmt::format(", transform = {{ {} }}", transform);
+        return fmt::format("{{ {} }}", entries);
     }
 
     std::string text_;

@@ -49,6 +49,7 @@ struct CANDELA_EXPORT SurfaceModels {
     Rgb color;
     std::shared_ptr<const MipMap> color_texture{};  // multiplies the colour; null: none
     TextureWrap color_texture_wrap = TextureWrap::repeat;
+    MaterialTextures material_textures{};
     std::string shading_plugin;
     std::unique_ptr<ShadingModel> shading;
     ShadingNeeds shading_needs{};
@@ -63,6 +64,8 @@ struct CANDELA_EXPORT SurfaceModels {
     /// Create the models, and ask them once what they need and offer. Throw Error, naming the plugin.
     void set_shading(Registry& registry, const Model& model, ColorEncoding encoding);
     void set_reflection(Registry& registry, const Model& model, ColorEncoding encoding);
+
+    bool has_textures() const { return color_texture != nullptr || !material_textures.numbers.empty(); }
 
     PointNeeds needs() const;
 };

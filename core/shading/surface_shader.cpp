@@ -168,13 +168,20 @@ PointNeeds SurfaceModels::needs() const {
     return {.face_normal = shading_needs.face_normal,
             .vertex_normal = shading_needs.vertex_normal,
             .barycentric = shading_needs.barycentric,
-            .uv = shading_needs.uv || reflection_needs.uv || color_texture != nullptr,
-            .footprint = color_texture != nullptr,
+            .uv = shading_needs.uv || reflection_needs.uv || has_textures(),
+            .footprint = has_textures(),
             .derivatives = shading_needs.derivatives || reflection_needs.tangent,
             .triangle = shading_needs.triangle};
 }
 
-void apply_texture(const SurfaceModels& surface, SurfacePoints& points) {
+void apply_textures(const SurfaceModels& surface, SurfacePoints& points) {
+    if (!surface.has_textures()) return;
+    const TextureCoordinates at{.uv = {points.u.data(), points.v.data()},
+                                .per_x = {points.dudx.data(), points.dvdx.data()},
+                                .per_y = {points.dudy.data(), points.dvdy.data()}};
+    const std::size_t numbers = surface.material_textures.numbers.size();
+    while (points.parameters.size() < numbers) points.parameters.emplace_back(k_batch_size);
+    evaluate(surface.material_textures, points.filled, at, points.parameters);
     if (surface.color_texture == nullptr) return;
     const Vec3Span color = points.color.span();
     if (!points.has_color) {
@@ -183,11 +190,7 @@ void apply_texture(const SurfaceModels& surface, SurfacePoints& points) {
         std::fill_n(color.z, points.filled, surface.color.b);
         points.has_color = true;
     }
-    surface.color_texture->multiply(surface.color_texture_wrap, points.filled,
-                                    {.uv = {points.u.data(), points.v.data()},
-                                     .per_x = {points.dudx.data(), points.dvdx.data()},
-                                     .per_y = {points.dudy.data(), points.dvdy.data()}},
-                                    color);
+    surface.color_texture->multiply(surface.color_texture_wrap, points.filled, at, color);
 }
 
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal) {
@@ -299,6 +302,7 @@ void SurfaceShader::find_normals(const SurfaceModels& surface, const SurfacePoin
 float SurfaceShader::shade(const SurfaceModels& surface, const ShadedObject& object,
                            const SurfacePoints& points, const Vec3Span& intensity) {
     const std::size_t count = lit_of(surface, points);
+    set_varying(surface, points);
     find_normals(surface, points);
     has_shadows_ = visibility_ != nullptr &&
                    visibility_->set_points(surface, object, points, std::as_const(normal_).span());
@@ -351,6 +355,13 @@ bool SurfaceShader::reflect_all_lights(const SurfaceModels& surface, const Surfa
     return true;
 }
 
+void SurfaceShader::set_varying(const SurfaceModels& surface, const SurfacePoints& points) {
+    varying_.clear();
+    const std::vector<TexturedNumber>& numbers = surface.material_textures.numbers;
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        varying_.push_back({numbers[i].parameter, numbers[i].channel, points.parameters[i].data()});
+}
+
 void SurfaceShader::find_tangents(const SurfaceModels& surface, const SurfacePoints& points,
                                   std::size_t count) {
     if (surface.reflection_needs.tangent)
@@ -367,7 +378,8 @@ SurfaceBatch SurfaceShader::lit_surface(const SurfaceModels& surface, const Surf
             .color = surface.color,
             .position = points.position.span(),
             .uv = needs.uv ? ConstVec2Span{points.u.data(), points.v.data()} : ConstVec2Span{},
-            .point_color = points.has_color ? points.color.span() : ConstVec3Span{}};
+            .point_color = points.has_color ? points.color.span() : ConstVec3Span{},
+            .varying = varying_};
 }
 
 void SurfaceShader::add_up(const SurfaceModels& surface, const ShadedObject& object,

@@ -31,9 +31,9 @@ struct LightSample;
 
 export namespace candela {
 
-/// Multiplies the points' colours by the surface's texture, if it has one. The points must have been gathered
-/// with what the surface needs.
-CANDELA_EXPORT void apply_texture(const SurfaceModels& surface, SurfacePoints& points);
+/// Multiplies the points' colours by the surface's texture, and evaluates the textures of its material, if it
+/// has any. The points must have been gathered with what the surface needs.
+CANDELA_EXPORT void apply_textures(const SurfaceModels& surface, SurfacePoints& points);
 
 /// Evaluates light, batch by batch. Owns the batch's arrays: use one per thread.
 class CANDELA_EXPORT SurfaceShader {
@@ -66,6 +66,7 @@ class CANDELA_EXPORT SurfaceShader {
     /// Adds up, part by part, what the reflection model reflects of each of `lights`.
     void add_up(const SurfaceModels& surface, const ShadedObject& object, const SurfacePoints& points,
                 const Lights& lights, Checking checking);
+    void set_varying(const SurfaceModels& surface, const SurfacePoints& points);
     void find_tangents(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count);
     /// Writes to `reflected_` what the reflection model reflects of all lights that are data. Returns false
     /// if there are no such lights or the model does not evaluate them at once.
@@ -102,6 +103,7 @@ class CANDELA_EXPORT SurfaceShader {
     std::vector<PunctualLight> punctual_lights_;
     std::vector<bool> is_blocked_;                     // whether objects may block them
     PunctualLighting lighting_;                        // refers to them
+    std::vector<VaryingParameter> varying_;            // of the points' material
     std::unique_ptr<ObjectEnvironment> surroundings_;  // created when a model asks
     Vec3Arrays normal_, to_observer_, tangent_;
     Vec3Arrays to_light_, light_diffuse_, light_specular_;

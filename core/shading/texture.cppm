@@ -3,11 +3,13 @@ module;
 
 #include "candela/plugin/export.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 export module candela.shading:texture;
@@ -61,6 +63,49 @@ class CANDELA_EXPORT MipMap {
     std::vector<Level> levels_;
     AlignedVector<std::int32_t> sizes_;  // of each level: width, height, first texel, padding
 };
+
+/// A picture on a surface.
+struct PlacedTexture {
+    std::string key{};  // of the picture: its file, and how it was decoded
+    std::shared_ptr<const MipMap> picture{};
+    TextureWrap wrap = TextureWrap::repeat;
+    TextureTransform transform{};
+
+    /// Column and row, from the top left, of the picture's texel at these texture coordinates.
+    CANDELA_EXPORT std::array<int, 2> texel_at(float u, float v) const noexcept;
+};
+
+/// A number of a reflection model's parameter that comes from a picture: offset + scale * texel, from
+/// `minimum` to `maximum`. In the units in which plugins receive it.
+struct TexturedNumber {
+    std::size_t texture = 0;
+    std::size_t texel_channel = 0;
+    std::size_t parameter = 0;  // of the model
+    std::size_t channel = 0;    // of the parameter
+    float scale = 1, offset = 0;
+    float minimum = 0, maximum = 1;
+};
+
+/// The parameters of a material that differ from point to point.
+struct MaterialTextures {
+    std::vector<PlacedTexture> textures{};
+    std::vector<TexturedNumber> numbers{};
+
+    /// Adds the numbers of a parameter, the model's number `index`.
+    CANDELA_EXPORT void add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
+                            const PlacedTexture& picture);
+};
+
+/// The matrix of a transform, row by row: u' = m[0] u + m[1] v + m[2], v' with the other three.
+CANDELA_EXPORT std::array<float, 6> placing_of(const TextureTransform& transform) noexcept;
+
+/// Evaluates numbers at `count` points: value i of number k is values[k][i].
+CANDELA_EXPORT void evaluate(const MaterialTextures& textures, std::size_t count,
+                             const TextureCoordinates& at, std::span<AlignedVector<float>> values);
+
+/// Whether the parameter's picture is decoded like colours of the scene, or as another encoding says.
+CANDELA_EXPORT ColorEncoding encoding_of(const ParameterTexture& texture, const Parameter& parameter,
+                                         ColorEncoding of_scene) noexcept;
 
 /// A picture from a file.
 struct TextureImage {

@@ -54,6 +54,8 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
                      .specular = first_of(specular_),
                      .intensity = first_of(intensity)};
 
+    for (const VaryingParameter& one : varying_)
+        trace.parameters.push_back({one.parameter, one.channel, one.values[0]});
     for (std::size_t k = 0; needs.triangle && k < 3; ++k) {
         trace.corner_position[k] = first_of(points.corner_position[k]);
         trace.corner_normal[k] = first_of(points.corner_normal[k]);

@@ -31,16 +31,24 @@ struct LightTrace {
     Vec3 reflected_specular{};
 };
 
+/// The value of a number of the material that differs from point to point.
+struct VaryingValue {
+    std::size_t parameter = 0;  // of the reflection model
+    std::size_t channel = 0;
+    float value = 0;  // as the model receives it
+};
+
 /// A point at which light is evaluated. World space; directions are unit vectors that point away from the
 /// surface.
 struct PointTrace {
     Vec3 position{};
     Vec3 normal{};  // N, from the shading model
     Vec3 to_observer{};
-    Vec3 tangent{};        // zero unless the reflection model needs it
-    Vec3 color{};          // C_o
-    Vec3 face_normal{};    // of the visible side, as are the following
-    Vec3 vertex_normal{};  // interpolated, not unit
+    Vec3 tangent{};                          // zero unless the reflection model needs it
+    Vec3 color{};                            // C_o
+    std::vector<VaryingValue> parameters{};  // those of the material that have textures
+    Vec3 face_normal{};                      // of the visible side, as are the following
+    Vec3 vertex_normal{};                    // interpolated, not unit
     Vec3 barycentric{};
     float u = 0, v = 0;
     Vec3 dpdu{}, dpdv{};

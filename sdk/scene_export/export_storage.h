@@ -26,6 +26,7 @@ struct ExportStorage : ExportedGeometry {
         bool encloses = false;
         std::vector<ExportedValues> shadings, materials;
         std::vector<ParamSet> shading_values;
+        std::vector<ExportedTexturedNumber> textured_numbers;
     };
 
     explicit ExportStorage(Registry& plugins) : registry(plugins) {}

@@ -72,6 +72,7 @@ class Exporter {
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
             to_.exported_objects[i].shadings = to_.objects[i].shadings;
             to_.exported_objects[i].materials = to_.objects[i].materials;
+            to_.exported_objects[i].textured_numbers = to_.objects[i].textured_numbers;
         }
         ExportedScene& result = to_.scene;
         result.title = to_.title.c_str();
@@ -302,10 +303,14 @@ class Exporter {
                 fmt::format(
                     "object {} has a texture, which this target does not support; remove color_texture",
                     object.label.text()));
-        for (std::size_t i = 0; i < to_.textures.size(); ++i)
-            if (to_.textures[i].file == object.color_texture) return i;
-        const auto& mip_map = to_.mip_maps.emplace_back(
-            read_texture(object.color_texture, registry_, scene_.image.color_management).mip_map);
+        return texture_of(object.color_texture, scene_.image.color_management);
+    }
+
+    /// The index of a picture that is decoded like that.
+    std::size_t texture_of(const std::string& file, ColorEncoding encoding) {
+        const auto [known, is_new] = textures_.try_emplace({file, encoding}, to_.textures.size());
+        if (!is_new) return known->second;
+        const auto& mip_map = to_.mip_maps.emplace_back(read_texture(file, registry_, encoding).mip_map);
         auto& levels = to_.levels.emplace_back();
         for (const MipMap::Level& level : mip_map->levels()) {
             const auto texels =
@@ -313,8 +318,44 @@ class Exporter {
             levels.push_back(
                 {level.width, level.height, mip_map->texels().subspan(4 * level.first, 4 * texels)});
         }
-        to_.textures.push_back({kept(object.color_texture), levels});
-        return to_.textures.size() - 1;
+        to_.textures.push_back({kept(file), levels});
+        return known->second;
+    }
+
+    /// The numbers of an object's own material that come from pictures.
+    std::vector<ExportedTexturedNumber> textured_numbers_of(const Object& object) {
+        if (object.textures.empty()) return {};
+        if (!request_.abilities.textured_numbers)
+            throw Error(ErrorCategory::failure,
+                        fmt::format("'{}' of object {} has a texture, which this target supports only for "
+                                    "colours; give it a value",
+                                    object.textures.front().parameter, object.label.text()));
+        MaterialTextures textures;
+        for (const ParameterTexture& texture : object.textures) {
+            const ParamSet& values = object.reflection.parameters;
+            const std::size_t index = values.index_of(texture.parameter);
+            const Parameter& parameter = values.schema()[index];
+            const ColorEncoding encoding = encoding_of(texture, parameter, scene_.image.color_management);
+            const std::size_t picture = texture_of(texture.file, encoding);
+            textures.add(texture, parameter, index,
+                         {fmt::format("{}", picture), nullptr, texture.wrap, texture.transform});
+        }
+        std::vector<ExportedTexturedNumber> numbers;
+        for (const TexturedNumber& number : textures.numbers) {
+            const PlacedTexture& placed = textures.textures[number.texture];
+            ExportedTexturedNumber exported{.parameter = number.parameter,
+                                            .channel = number.channel,
+                                            .texture = std::stoul(placed.key),
+                                            .texel_channel = number.texel_channel,
+                                            .repeats = placed.wrap == TextureWrap::repeat,
+                                            .scale = number.scale,
+                                            .offset = number.offset,
+                                            .minimum = number.minimum,
+                                            .maximum = number.maximum};
+            std::ranges::copy(placing_of(placed.transform), exported.placing);
+            numbers.push_back(exported);
+        }
+        return numbers;
     }
 
     void add(std::size_t index) {
@@ -337,6 +378,7 @@ class Exporter {
             .casts_shadows = object.casts_shadows,
             .receives_shadows = object.receives_shadows,
             .transmits_light = object.transmits_light};
+        own.textured_numbers = textured_numbers_of(object);
         // Not by their names: files with the same text are the same plugin.
         const PluginDescriptor& shading = registry_.descriptor(PluginKind::shading, object.shading.name);
         const PluginDescriptor& reflection =
@@ -368,6 +410,7 @@ class Exporter {
     const Scene& scene_;
     const ExportRequest& request_;
     std::map<std::pair<PluginKind, std::string>, std::optional<Scene>> with_;
+    std::map<std::pair<std::string, ColorEncoding>, std::size_t> textures_;  // indices of to_.textures
 };
 
 }  // namespace

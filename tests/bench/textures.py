@@ -1,5 +1,6 @@
-"""Frames with a texture on all objects against the same frames without, 1920 x 1080, in turns: the ratio of their times. The scenes of
-tests/bench/scenes, and two that textures fill.
+"""Frames with textures on all objects against the same frames without, 1920 x 1080, in turns: the ratio of their times. The scenes of
+tests/bench/scenes, with a texture of the colour, and with one more for each of the four parameters of Phong's material; and two that
+textures fill.
 
 textures.py <build folder> <work folder> [--frames N] [--rounds N] [--threads N]
 """
@@ -85,10 +86,26 @@ def compare(name, plain, textured):
           f"(the last {textured_ms:.2f} and {plain_ms:.2f} ms)", flush=True)
 
 
+def with_textures(scene, color, material=""):
+    """A texture for each object, and textures in its material."""
+    textured = []
+    for table in re.split(r"(?m)^(?=\[)", scene):
+        if table.startswith("[[object]]"):
+            table = f"{table.rstrip()}\n{color}\n" + (f"[object.material]\n{material}\n" if material else "")
+        if not (material and table.startswith("[object.material]")):
+            textured.append(table)
+    return "".join(textured)
+
+
 TEXTURE = 'color_texture = "texture.ppm"'
+PARAMETERS = {"ka": 'scale = 0.1', "kd": 'scale = 0.7', "ks": 'scale = 0.3', "shininess": "scale = 60, offset = 2"}
+MATERIAL = "\n".join(f'{name} = {{ texture = "{name}.ppm", {mapping} }}' for name, mapping in PARAMETERS.items())
+for name in PARAMETERS:
+    if not (arguments.work / f"{name}.ppm").exists():
+        (arguments.work / f"{name}.ppm").write_bytes(texture.read_bytes())
 for file in sorted((HERE / "scenes").glob("*.toml")):
-    tables = re.split(r"(?m)^(?=\[)", file.read_text())
-    compare(file.stem, "".join(tables), "".join(f"{t.rstrip()}\n{TEXTURE}\n" if t.startswith("[[object]]") else t for t in tables))
+    compare(file.stem, file.read_text(), with_textures(file.read_text(), TEXTURE))
+    compare(f"{file.stem}, five", file.read_text(), with_textures(file.read_text(), TEXTURE, MATERIAL))
 for name, objects in SCENES.items():
     for model in ("lambert", "phong", "ggx"):
         compare(f"{name} {model}", *(HEAD.format(model=model) + objects.format(texture=key) for key in ("", TEXTURE)))

@@ -92,3 +92,67 @@ TEST_CASE("a picture of a few bytes that claims 400 million pixels does not take
     REQUIRE(::getrusage(RUSAGE_CHILDREN, &usage) == 0);
     CHECK(usage.ru_maxrss < (1 << 20));  // in kilobytes, of the largest child so far
 }
+
+namespace {
+
+/// A torus whose material has the given line.
+CommandResult with_material(const std::string& line, const Folder& directory, const char* model = "phong",
+                            const char* command = "check scene.toml") {
+    directory.write("scene.toml", std::string("version = 1\nimage = { width = 16, height = 8 }\n"
+                                              "observer = { position = [0, 0, 4], look_at = [0, 0, 0] }\n"
+                                              "shading = { model = \"phong\" }\nreflection = { model = \"") +
+                                      model +
+                                      "\" }\n[[light]]\ntype = \"ambient\"\n[[object]]\nname = \"ring\"\n"
+                                      "type = \"torus\"\n[object.material]\n" +
+                                      line + "\n");
+    return directory.run(command);
+}
+
+}  // namespace
+
+TEST_CASE("mistakes in a parameter's texture are reported at their places") {
+    const Folder d({{"wood.ppm", k_image}});
+    expect(with_material("kd = { texture = \"wool.ppm\" }", d), 3,
+           {"scene.toml:12:18: error: 'wool.ppm' does not exist", "did you mean 'wood.ppm'?"});
+    expect(with_material("kd = { channel = \"r\" }", d), 3,
+           {"scene.toml:12:6: error: 'kd' in [object.material] of 'ring'", "'texture'"});
+    expect(with_material("kd = { texture = \"wood.ppm\", chanel = \"r\" }", d), 3,
+           {"scene.toml:12:30: error:", "'chanel'", "channel"});
+    expect(with_material("kd = { texture = \"wood.ppm\", channel = \"a\" }", d), 3,
+           {"scene.toml:12:40: error: 'channel': \"a\" is not one of 'rgb', 'r', 'g', 'b'"});
+    expect(with_material("shininess = { texture = \"wood.ppm\", scale = [1, 2, 3] }", d), 3,
+           {"scene.toml:12:45: error: 'scale' of 'shininess' in [object.material] of 'ring' has three "
+            "numbers; the parameter has one"});
+    expect(with_material("kd = { texture = \"wood.ppm\", transform = 2 }", d), 3,
+           {"scene.toml:12:42: error: 'transform' of 'kd'", "expected a table"});
+    expect(with_material("kd = { texture = \"wood.ppm\", transform = { scale = [1, 2, 3] } }", d), 3,
+           {"scene.toml:12:52: error: 'scale' has 3 numbers; expected two, along u and v"});
+    expect(with_material("highlight = { texture = \"wood.ppm\" }", d, "toon"), 0, {});
+    expect(with_material("bands = { texture = \"wood.ppm\" }", d, "toon"), 3,
+           {"scene.toml:12:9: error: 'bands' in [object.material] of 'ring' cannot have a texture: its value "
+            "is an integer"});
+    expect(with_material("ior = { texture = \"wood.ppm\" }", d, "dielectric"), 3,
+           {"scene.toml:12:7: error: 'ior' in [object.material] of 'ring' cannot have a texture: "
+            "reflection/dielectric has the same parameters at every point"});
+    expect(with_material("kd = { texture = \"wood.ppm\" }", d), 0, {});
+}
+
+TEST_CASE("a program that cannot have a parameter's texture is refused with its name") {
+    const Folder d({{"wood.ppm", k_image}});
+    expect(with_material("kd = { texture = \"wood.ppm\" }", d, "phong",
+                         "generate scene.toml --target povray -o out"),
+           1, {"'kd' of object 'ring' has a texture, which this target supports only for colours"});
+    CHECK_FALSE(d.has("out"));
+}
+
+TEST_CASE("explain shows the values that a material has at a pixel, and the texels they come from") {
+    // One texel of 51 of 255: 0.2.
+    const Folder d({{"dot.ppm", std::string("P6\n1 1\n255\n\x33\x66\xff", 14)}});
+    const std::string material =
+        "kd = { texture = \"dot.ppm\", encoding = \"linear\" }\nshininess = { texture = \"dot.ppm\", scale = "
+        "10, offset = 3 }";
+    const CommandResult result = with_material(material, d, "phong", "explain scene.toml --pixel 8,4");
+    succeeded(result);
+    CHECK(holds(result.out, "kd = [0.2, 0.4, 1]  texel (0, 0) of dot.ppm"));
+    CHECK(holds(result.out, "shininess = 5  texel (0, 0) of dot.ppm"));
+}

@@ -198,6 +198,18 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.objects[1].encloses = true; },
         [](Scene& s) { s.objects[1].color_texture = std::string(CANDELA_TEST_SOURCE) + "/LICENSE"; },
         [](Scene& s) { s.objects[1].color_texture_wrap = candela::TextureWrap::clamp; },
+        [](Scene& s) {
+            s.objects[1].textures.push_back(
+                {.parameter = "kd",
+                 .file = std::string(CANDELA_TEST_SOURCE) + "/LICENSE",
+                 .channel = candela::TextureChannel::green,
+                 .scale = {0.5f, 0.25f, 1},
+                 .offset = {0.125f, 0, 0},
+                 .wrap = candela::TextureWrap::clamp,
+                 .encoding = candela::TextureEncoding::srgb,
+                 .transform = {.scale = {2, -1}, .rotation = 30, .offset = {0, 0.5f}}});
+            s.objects[1].reflection.parameters.set("kd", Vec3{0.625f, 0.25f, 1});
+        },
         [](Scene& s) { s.objects[1].shading.name = "flat"; },
         [](Scene& s) { s.objects[1].reflection.parameters.set("kd", Vec3{0.1f, 0.2f, 0.3f}); },
     };

@@ -121,12 +121,16 @@ void Explanation::add_calls(const InspectedFragment& fragment, candela::Registry
                                                 .function = is_ambient ? "illuminate_ambient" : "illuminate",
                                                 .arguments = receiver(point).all(),
                                                 .sample = light.sample});
-            const std::size_t reflect = add(
-                {.plugin = reflection,
-                 .values = values_of(*reflection, object.reflection.parameters, encoding, *models.reflection),
-                 .function = is_ambient ? "reflect_ambient" : "reflect",
-                 .arguments =
-                     is_ambient ? surface(point).all() : surface(point).add({light.to_light}).all()});
+            std::vector<ParamValue> material =
+                values_of(*reflection, object.reflection.parameters, encoding, *models.reflection);
+            for (const candela::VaryingValue& own : point.parameters)
+                material[own.parameter].number[own.channel] = own.value;
+            const std::size_t reflect =
+                add({.plugin = reflection,
+                     .values = std::move(material),
+                     .function = is_ambient ? "reflect_ambient" : "reflect",
+                     .arguments =
+                         is_ambient ? surface(point).all() : surface(point).add({light.to_light}).all()});
             lights_.push_back({&light, illuminate, reflect});
         }
     }

@@ -85,13 +85,28 @@ Json json_of(const Explanation& e, const PointTrace& point, const LightTrace& li
     return result;
 }
 
-Json json_of(const Explanation& e, const PointTrace& point, const std::string& reflection) {
+/// The material's parameters that have textures, in the units in which the model receives them.
+Json parameters_of(const PointTrace& point, const candela::Object& object) {
+    Json parameters = Json::object();
+    for (const candela::VaryingValue& own : point.parameters) {
+        const candela::Parameter& parameter = object.reflection.parameters.schema()[own.parameter];
+        if (parameter.type == candela::ParamType::real)
+            parameters[parameter.name] = own.value;
+        else
+            parameters[parameter.name].push_back(own.value);
+    }
+    return parameters;
+}
+
+Json json_of(const Explanation& e, const PointTrace& point, const candela::Object& object) {
+    const std::string reflection = candela::shown_model_name(object.reflection.name);
     Json lights = Json::array();
     for (const LightTrace& light : point.lights) lights.push_back(json_of(e, point, light, reflection));
     return {{"position", json_of(point.position)},
             {"N", json_of(point.normal)},
             {"V", json_of(point.to_observer)},
             {"C_o", json_of(point.color)},
+            {"parameters", parameters_of(point, object)},
             {"tangent", json_of(point.tangent)},
             {"from_behind", point.from_behind},
             {"normal_steps", json_of(e.normal_steps(point))},
@@ -106,8 +121,7 @@ Json json_of(const Explanation& e, const PointTrace& point, const std::string& r
 Json json_of(const Explanation& e, const InspectedFragment& fragment) {
     const candela::Object& object = e.scene.objects[fragment.object];
     Json points = Json::array();
-    for (const PointTrace& point : fragment.points)
-        points.push_back(json_of(e, point, candela::shown_model_name(object.reflection.name)));
+    for (const PointTrace& point : fragment.points) points.push_back(json_of(e, point, object));
     return {{"object", object.label.text()},
             {"index", fragment.object},
             {"type", object.shape.name},

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <filesystem>
+#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -86,18 +89,42 @@ class Writer {
                             candela::shown_model_name(object.shading.name), place_of(fragment.rate)));
         for (std::size_t i = 0; i < fragment.points.size(); ++i) {
             if (fragment.points.size() > 1) line(1, fmt::format("vertex {}", i + 1));
-            write(fragment.points[i], object);
+            write(fragment.points[i], object, fragment.object);
         }
         if (fragment.points.size() > 1) value(1, "I", fragment.intensity, "interpolated");
     }
 
-    void write(const PointTrace& point, const candela::Object& object) {
+    /// The material's parameters that have textures, and where in the pictures the point is.
+    void write_textures(const PointTrace& point, const candela::Object& object,
+                        const candela::MaterialTextures& textures) {
+        for (const candela::ParameterTexture& texture : object.textures) {
+            const std::size_t index = object.reflection.parameters.index_of(texture.parameter);
+            const candela::Parameter& parameter = object.reflection.parameters.schema()[index];
+            std::string value;
+            const candela::PlacedTexture* placed = nullptr;
+            for (std::size_t i = 0; i < point.parameters.size(); ++i) {
+                const candela::VaryingValue& own = point.parameters[i];
+                if (own.parameter != index) continue;
+                const float unit = parameter.unit == "deg" ? 180 / std::numbers::pi_v<float> : 1.0f;
+                value += fmt::format("{}{:.6g}", value.empty() ? "" : ", ", unit * own.value);
+                placed = &textures.textures[textures.numbers[i].texture];
+            }
+            if (placed == nullptr) continue;
+            const std::array<int, 2> texel = placed->texel_at(point.u, point.v);
+            if (parameter.type != candela::ParamType::real) value = '[' + value + ']';
+            line(2, fmt::format("{} = {}  texel ({}, {}) of {}", texture.parameter, value, texel[0], texel[1],
+                                std::filesystem::path(texture.file).filename().string()));
+        }
+    }
+
+    void write(const PointTrace& point, const candela::Object& object, std::size_t object_index) {
         value(2, "p", point.position);
         value(2, "N", point.normal, point.from_behind ? "seen from behind: reversed" : "");
         steps(3, e_.normal_steps(point));
         value(2, "V", point.to_observer);
         if (length(point.tangent) > 0) value(2, "T", point.tangent);
         value(2, "C_o", point.color);
+        write_textures(point, object, e_.compiled.objects[object_index].surface.material_textures);
         for (const LightTrace& light : point.lights) write(light, point, object);
         if (length(point.surroundings) > 0) value(2, "surroundings", point.surroundings);
         value(2, "I_a", point.ambient);

@@ -49,6 +49,23 @@ Json parameter_schema(const Parameter& p) {
     return schema;
 }
 
+constexpr const char* k_texture = "texture";
+
+/// The value of a plugin's parameter, or the texture that it may have instead.
+Json value_json(const Manifest& m, const Parameter& p) {
+    Json value = value_json(p);
+    if (!takes_texture(m, p)) return value;
+    Json texture{{"$ref", fmt::format("#/definitions/{}", k_texture)}};
+    return {{"anyOf", Json::array({std::move(value), std::move(texture)})}};
+}
+
+Json parameter_schema(const Manifest& m, const Parameter& p) {
+    Json schema{{"description", description_of(p)}};
+    schema.update(value_json(m, p));
+    put_default(schema, p);
+    return schema;
+}
+
 /// A list of values of the parameter's type.
 Json list_schema(const Parameter& p) {
     return {{"description", p.meaning}, {"type", "array"}, {"items", value_json(p)}, {"uniqueItems", true}};
@@ -89,7 +106,12 @@ bool is_same_for_all(const std::vector<User>& users, Function function) {
 }
 
 /// Whether all plugins have the same constraints on the value.
-bool is_agreed(const std::vector<User>& users) { return is_same_for_all(users, value_schema); }
+bool is_agreed(const std::vector<User>& users) {
+    const User& first = users.front();
+    return std::ranges::all_of(users, [&](const User& user) {
+        return value_json(*user.plugin, *user.parameter) == value_json(*first.plugin, *first.parameter);
+    });
+}
 
 /// The common constraints of all plugins that use a parameter of that name, and its meaning for each.
 Json merged(const std::vector<User>& users) {
@@ -109,9 +131,11 @@ Json merged(const std::vector<User>& users) {
 
     const Parameter& first = *users.front().parameter;
     const auto type_of = [](const Parameter& p) { return value_json(p)["type"]; };
+    const bool may_have_texture =
+        std::ranges::any_of(users, [](const User& u) { return takes_texture(*u.plugin, *u.parameter); });
     if (is_agreed(users)) {
-        schema.update(value_json(first));
-    } else if (is_same_for_all(users, type_of)) {
+        schema.update(value_json(*users.front().plugin, first));
+    } else if (!may_have_texture && is_same_for_all(users, type_of)) {
         schema["type"] = type_of(first);
     }
     if (is_same_for_all(users, default_text)) put_default(schema, first);
@@ -137,6 +161,11 @@ class SchemaWriter {
             root["properties"][p.name] = is_list ? list_schema(p) : parameter_schema(p);
         }
         for (const TableSchema& table : scene_schema()) root["properties"][table.name] = schema_of(table);
+        if (std::ranges::any_of(installed_, [](const Manifest& m) {
+                return std::ranges::any_of(m.parameters,
+                                           [&](const Parameter& p) { return takes_texture(m, p); });
+            }))
+            definitions_[k_texture] = schema_of(texture_schema());
         root["additionalProperties"] = false;
         put_unless_empty(root, "dependencies", material_dependencies());
         put_unless_empty(root, "definitions", std::move(definitions_));
@@ -274,7 +303,7 @@ class SchemaWriter {
         for (const std::string& key : own) properties[key] = true;
         for (const Parameter& p : m.parameters) {
             const bool is_said = !properties.contains(p.name) && is_agreed(users_of(m.kind, p.name));
-            properties[p.name] = is_said ? Json(true) : parameter_schema(p);
+            properties[p.name] = is_said ? Json(true) : parameter_schema(m, p);
         }
         put_unless_empty(schema, "required", required_in(m.parameters));
         schema["additionalProperties"] = false;

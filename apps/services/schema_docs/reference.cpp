@@ -43,6 +43,7 @@ This page is made by `candela schema --format markdown`, from the declarations t
 | a colour | `[255, 200, 0]` | red, green, blue, 0 to 255, sRGB-encoded; 256 counts as 255, with a warning |
 | a number, or three | `0.7`, `[0.7, 0.5, 0.2]` | one for all, or three: red, green and blue of a material, x, y and z of a scale |
 
+A number or a colour of a reflection model may be [a texture](#a-texture) instead: it is then different at each point.
 A key without a default is required. In formulas, N is the surface's normal, L points to the light and V to the observer (unit
 vectors all), R is L mirrored at N, C_o is the object's colour, I_L the light that arrives at the point, and A.B the dot product.
 *Declared* properties are used for listing and testing.
@@ -99,6 +100,7 @@ class ReferenceWriter {
         text_ += "\n## The file\n";
         table(top_schema());
         for (const TableSchema& schema : scene_schema()) table(schema);
+        table(texture_schema());
         for (const Section& section : k_sections) {
             line("\n## {}\n\n{}", section.heading, section.text);
             if (section.kind == PluginKind::image) {

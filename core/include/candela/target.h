@@ -69,6 +69,20 @@ struct ExportedTexture {
     std::span<const ExportedTextureLevel> levels{};
 };
 
+/// A number of a material that comes from a picture: offset + scale * texel at each point, from `minimum` to
+/// `maximum`, in the units in which an instance receives it.
+struct ExportedTexturedNumber {
+    std::size_t parameter = 0;      // of the object's own reflection model
+    std::size_t channel = 0;        // of the parameter: 0 to 2
+    std::size_t texture = 0;        // index into ExportedScene::textures
+    std::size_t texel_channel = 0;  // 0 to 2
+    bool repeats = true;            // the texture, beyond its edges
+    /// Of texture coordinates: u' = placing[0] * u + placing[1] * v + placing[2], v' with the other three.
+    float placing[6] = {1, 0, 0, 0, 1, 0};
+    float scale = 1, offset = 0;
+    float minimum = 0, maximum = 1;
+};
+
 struct ExportedObject {
     static constexpr std::size_t k_no_texture = static_cast<std::size_t>(-1);
 
@@ -83,6 +97,7 @@ struct ExportedObject {
     Transform transform{};
     std::size_t color_texture = k_no_texture;  // index into ExportedScene::textures
     bool color_texture_repeats = true;         // beyond its edges; otherwise the edge colours continue
+    std::span<const ExportedTexturedNumber> textured_numbers{};  // of its own reflection model
     // With ExportedScene::has_shadows:
     bool casts_shadows = true;     // it blocks light
     bool receives_shadows = true;  // others, and its own parts, block light on it
@@ -225,6 +240,7 @@ struct TargetAbilities {
     bool triangle = false;               // kernels of shading models that read their triangle: ShadingNeeds
     bool vertex_colors = false;          // ExportedMesh::color; otherwise the host refuses a mesh that has it
     bool textures = false;               // ExportedObject::color_texture
+    bool textured_numbers = false;       // ExportedObject::textured_numbers
     bool shadows = false;                // ExportedScene::has_shadows
 };
 

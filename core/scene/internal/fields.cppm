@@ -3,6 +3,7 @@
 module;
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -118,6 +119,24 @@ Field<T> choice(const std::vector<std::string>& words, const char* name, const c
                     of.*member = static_cast<Enum>(word - words.begin());
                 }};
 }
+/// Two numbers.
+template <class T>
+Field<T> pair(const char* name, const char* meaning, std::array<float, 2> T::* member) {
+    const auto get = [=](const T& of) -> Value {
+        const std::array<float, 2>& numbers = of.*member;
+        return NumberList(numbers.begin(), numbers.end());
+    };
+    return {.parameter = {.name = name,
+                          .type = ParamType::numbers,
+                          .meaning = meaning,
+                          .default_value = get(T{})},
+            .get = get,
+            .set = [=](T& of, const Value& value) {
+                const auto& numbers = std::get<NumberList>(value);
+                // The reader reports another number of them.
+                if (numbers.size() == 2) of.*member = {numbers[0], numbers[1]};
+            }};
+}
 /// A key whose value needs a reader of its own.
 template <class T>
 Field<T> unheld(ParamType type, const char* name, const char* meaning) {
@@ -173,6 +192,8 @@ struct OwnTables {
     Table<Model> shading, reflection;  // of objects that name none
     Table<LightSource> light;
     Table<Object> object;
+    Table<ParameterTexture> texture;  // of a parameter
+    Table<TextureTransform> texture_transform;
     Table<Orbit> orbit;
     Table<Track> track;
     Table<Animation> animation;

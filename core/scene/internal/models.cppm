@@ -28,7 +28,8 @@ class ModelChooser {
 
     /// The name is empty if there is none, which has been reported.
     Model shading_for(const TableNode& object);
-    Model reflection_for(const TableNode& object, const std::string& label, const SourceLocation& place);
+    /// Sets the object's reflection model and the textures of its parameters.
+    void set_reflection(Object& to, const TableNode& object, const std::string& label);
 
   private:
     /// A model's name, and where it stands.
@@ -42,6 +43,10 @@ class ModelChooser {
     bool is_missing(const std::string& table) const;
     void use_defaults_if_agreed();
     void read_shading_table();
+    std::vector<ParameterTexture> take_textures(TableNode& material, const PluginFile& plugin,
+                                                const std::string& where);
+    std::optional<ParameterTexture> texture_in(const TableNode& table, const Parameter& parameter,
+                                               const std::string& where, const SourceLocation& place);
     std::optional<Named> model_in_scene(const TableNode& object);
     bool belongs_to(const Named& replaced, const std::string& key);
     void report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,

@@ -1,0 +1,131 @@
+// Parameters of reflection models that have a picture instead of a value.
+module;
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+module candela.scene;
+
+import :fields;
+import :models;
+import :tables;
+import :vocabulary;
+import candela.api;
+import candela.plugins;
+import candela.util;
+
+namespace candela {
+
+namespace {
+
+bool is_real(const Parameter& p) { return p.type == ParamType::real; }
+
+/// The value where the texel is 1, which stands for the parameter until a point has its own: relations
+/// between parameters hold for it.
+Node factor_of(const ParameterTexture& texture, const Parameter& p, const SourceLocation& place) {
+    const auto within = [&](float value) {
+        const float margin = 1e-6f * std::max(1.0f, std::abs(value));
+        if (value <= p.minimum) value = p.minimum + (p.minimum_excluded ? margin : 0);
+        if (value >= p.maximum) value = p.maximum - (p.maximum_excluded ? margin : 0);
+        return shortest(value);
+    };
+    const Vec3 sum = texture.scale + texture.offset;
+    if (is_real(p)) return {place, within(sum.x)};
+    ArrayNode channels;
+    for (const float value : {sum.x, sum.y, sum.z}) channels.push_back({place, within(value)});
+    return {place, std::move(channels)};
+}
+
+}  // namespace
+
+/// Replaces each table among the material's values by a number, and returns what the tables say.
+std::vector<ParameterTexture> ModelChooser::take_textures(TableNode& material, const PluginFile& plugin,
+                                                          const std::string& where) {
+    std::vector<ParameterTexture> textures;
+    std::vector<std::string> broken;
+    for (const Parameter& p : plugin.manifest.parameters) {
+        TableNode::Entry* const entry = material.find(p.name);
+        const TableNode* const table = entry != nullptr ? entry->node.table() : nullptr;
+        if (table == nullptr) continue;
+        const std::string subject = fmt::format("'{}' in {}", p.name, where);
+        const auto refuse = [&](const std::string& why) {
+            tables_.diagnostics().error(entry->node.place,
+                                        fmt::format("{} cannot have a texture: {}", subject, why));
+        };
+        std::optional<ParameterTexture> texture;
+        if (takes_texture(plugin.manifest, p))
+            texture = texture_in(*table, p, subject, entry->node.place);
+        else if (!plugin.manifest.surface_needs.varying)
+            refuse(fmt::format("{} has the same parameters at every point", plugin.manifest.id()));
+        else
+            refuse(fmt::format("its value is {}", constraint_text(p)));
+        if (texture) {
+            if (p.type == ParamType::color)
+                std::erase_if(material.entries, [&](const auto& e) { return e.key == p.name; });
+            else
+                entry->node = factor_of(*texture, p, entry->node.place);
+            textures.push_back(std::move(*texture));
+        } else {
+            broken.push_back(p.name);
+        }
+    }
+    std::erase_if(material.entries,
+                  [&](const auto& e) { return std::ranges::find(broken, e.key) != broken.end(); });
+    return textures;
+}
+
+/// `where`: the parameter, for messages. Nothing if the table is invalid, which has been reported.
+std::optional<ParameterTexture> ModelChooser::texture_in(const TableNode& table, const Parameter& parameter,
+                                                         const std::string& where,
+                                                         const SourceLocation& place) {
+    Diagnostics& diagnostics = tables_.diagnostics();
+    const std::size_t errors = diagnostics.error_count();
+    const Table<ParameterTexture>& keys = own_tables().texture;
+    TableContext context{where, {}, place};
+    context.lists_keys = true;
+    report_unknown_keys(table, names_in(*keys.schema(), {"transform"}), context, diagnostics);
+    ParameterTexture texture{.parameter = parameter.name};
+    keys.assign(&table, read_parameters(table, keys.schema(), context, diagnostics).set, texture);
+    const auto require_three = [&](const char* key, const Vec3& value) {
+        if (is_real(parameter) && (value.x != value.y || value.x != value.z))
+            diagnostics.error(table.find(key)->node.place,
+                              fmt::format("'{}' of {} has three numbers; the parameter has one", key, where));
+    };
+    require_three("scale", texture.scale);
+    require_three("offset", texture.offset);
+    if (const TableNode::Entry* const entry = table.find("transform")) {
+        const Table<TextureTransform>& placing = own_tables().texture_transform;
+        const TableNode* const transform = entry->node.table();
+        if (transform == nullptr) {
+            diagnostics.error(entry->node.place,
+                              fmt::format("'transform' of {} is {}; expected a table, such as "
+                                          "{{ scale = [2, 2] }}",
+                                          where, description(entry->node)));
+        } else {
+            context.where = "'transform' of " + where;
+            context.place = entry->node.place;
+            report_unknown_keys(*transform, names_in(*placing.schema()), context, diagnostics);
+            placing.assign(transform, read_parameters(*transform, placing.schema(), context, diagnostics).set,
+                           texture.transform);
+            for (const char* const key : {"scale", "offset"}) {
+                const TableNode::Entry* const pair = transform->find(key);
+                const ArrayNode* const numbers = pair != nullptr ? pair->node.array() : nullptr;
+                if (numbers != nullptr && numbers->size() != 2)
+                    diagnostics.error(pair->node.place,
+                                      fmt::format("'{}' has {} numbers; expected two, along u and v", key,
+                                                  numbers->size()));
+            }
+        }
+    }
+    if (diagnostics.error_count() != errors) return std::nullopt;
+    return texture;
+}
+
+}  // namespace candela

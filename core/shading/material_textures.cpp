@@ -1,0 +1,135 @@
+module;
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+
+module candela.shading;
+
+import candela.api;
+import candela.plugins;
+import candela.raster;
+import candela.scene;
+import candela.util;
+
+namespace candela {
+
+namespace {
+
+constexpr float k_radians = std::numbers::pi_v<float> / 180;
+
+using Numbers = std::array<float, k_batch_size>;
+
+/// Texture coordinates of a batch, placed as a texture asks.
+struct PlacedCoordinates {
+    std::array<Numbers, 6> arrays;
+    TextureCoordinates at{.uv = {arrays[0].data(), arrays[1].data()},
+                          .per_x = {arrays[2].data(), arrays[3].data()},
+                          .per_y = {arrays[4].data(), arrays[5].data()}};
+
+    void place(const TextureTransform& transform, std::size_t count, const TextureCoordinates& of) {
+        const std::array<float, 6> m = placing_of(transform);
+        const std::array from{&of.uv, &of.per_x, &of.per_y};
+        for (std::size_t k = 0; k < from.size(); ++k) {
+            // Derivatives are not moved.
+            const float u0 = k == 0 ? m[2] : 0, v0 = k == 0 ? m[5] : 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                const float u = from[k]->x[i], v = from[k]->y[i];
+                arrays[2 * k][i] = m[0] * u + m[1] * v + u0;
+                arrays[2 * k + 1][i] = m[3] * u + m[4] * v + v0;
+            }
+        }
+    }
+};
+
+}  // namespace
+
+std::array<float, 6> placing_of(const TextureTransform& transform) noexcept {
+    const float angle = k_radians * transform.rotation;
+    const float c = std::cos(angle), s = std::sin(angle);
+    const auto [u, v] = transform.scale;
+    return {c * u, -s * v, transform.offset[0], s * u, c * v, transform.offset[1]};
+}
+
+std::array<int, 2> PlacedTexture::texel_at(float u, float v) const noexcept {
+    const std::array<float, 6> m = placing_of(transform);
+    const auto place = [&](float x, int size) {
+        if (wrap == TextureWrap::repeat) x -= std::floor(x);
+        return std::clamp(static_cast<int>(std::clamp(x, 0.0f, 1.0f) * static_cast<float>(size)), 0,
+                          size - 1);
+    };
+    return {place(m[0] * u + m[1] * v + m[2], picture->width()),
+            picture->height() - 1 - place(m[3] * u + m[4] * v + m[5], picture->height())};
+}
+
+ColorEncoding encoding_of(const ParameterTexture& texture, const Parameter& parameter,
+                          ColorEncoding of_scene) noexcept {
+    switch (texture.encoding) {
+        case TextureEncoding::linear:
+            return ColorEncoding::none;
+        case TextureEncoding::srgb:
+            return ColorEncoding::srgb;
+        default:
+            break;
+    }
+    const bool takes_three = parameter.type != ParamType::real && texture.channel == TextureChannel::rgb;
+    return takes_three ? of_scene : ColorEncoding::none;
+}
+
+void MaterialTextures::add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
+                           const PlacedTexture& picture) {
+    const auto same = std::ranges::find_if(textures, [&](const PlacedTexture& t) {
+        return t.key == picture.key && t.wrap == picture.wrap && t.transform == picture.transform;
+    });
+    const auto number = static_cast<std::size_t>(same - textures.begin());
+    if (same == textures.end()) textures.push_back(picture);
+    const float unit = parameter.unit == "deg" ? k_radians : 1.0f;
+    const bool is_color = parameter.type == ParamType::color;
+    const float low = is_color ? 0.0f : parameter.minimum, high = is_color ? 1.0f : parameter.maximum;
+    const auto inwards = [](float bound, bool is_excluded) {
+        return is_excluded ? 1e-6f * std::max(1.0f, std::abs(bound)) : 0.0f;
+    };
+    const std::array scales{texture.scale.x, texture.scale.y, texture.scale.z},
+        offsets{texture.offset.x, texture.offset.y, texture.offset.z};
+    const std::size_t channels = parameter.type == ParamType::real ? 1 : 3;
+    for (std::size_t c = 0; c < channels; ++c) {
+        const auto one = static_cast<std::size_t>(std::max(static_cast<int>(texture.channel) - 1, 0));
+        numbers.push_back({.texture = number,
+                           .texel_channel = texture.channel == TextureChannel::rgb ? c : one,
+                           .parameter = index,
+                           .channel = c,
+                           .scale = unit * scales[c],
+                           .offset = unit * offsets[c],
+                           .minimum = unit * (low + inwards(low, parameter.minimum_excluded)),
+                           .maximum = unit * (high - inwards(high, parameter.maximum_excluded))});
+    }
+}
+
+void evaluate(const MaterialTextures& textures, std::size_t count, const TextureCoordinates& at,
+              std::span<AlignedVector<float>> values) {
+    alignas(64) std::array<Numbers, 3> texel;
+    PlacedCoordinates placed;
+    for (std::size_t t = 0; t < textures.textures.size(); ++t) {
+        const PlacedTexture& texture = textures.textures[t];
+        const bool is_moved = texture.transform != TextureTransform{};
+        if (is_moved) placed.place(texture.transform, count, at);
+        for (Numbers& channel : texel) std::fill_n(channel.begin(), count, 1.0f);
+        texture.picture->multiply(texture.wrap, count, is_moved ? placed.at : at,
+                                  {texel[0].data(), texel[1].data(), texel[2].data()});
+        for (std::size_t k = 0; k < textures.numbers.size(); ++k) {
+            const TexturedNumber number = textures.numbers[k];
+            if (number.texture != t) continue;
+            const float* const from = texel[number.texel_channel].data();
+            float* const to = values[k].data();
+            for (std::size_t i = 0; i < count; ++i) {
+                to[i] = std::min(std::max(number.offset + number.scale * from[i], number.minimum),
+                                 number.maximum);
+            }
+        }
+    }
+}
+
+}  // namespace candela
