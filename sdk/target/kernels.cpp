@@ -150,12 +150,16 @@ std::string prepared(const ExportedModel& model, const std::string& parameters) 
                : parameters;
 }
 
-std::string struct_text(const ExportedModel& model, const ExportedValues& values) {
+std::string parameters_text(const ExportedModel& model, const ExportedValues& values) {
     const PluginDescriptor& plugin = *model.plugin;
     std::vector<std::string> members;
     for (const std::size_t i : plugin.kernel.members)
         members.push_back(member_text(plugin.parameters[i], values.runtime[i]));
-    return prepared(model, fmt::format("{}{{{}}}", plugin.kernel.parameters, fmt::join(members, ", ")));
+    return fmt::format("{}{{{}}}", plugin.kernel.parameters, fmt::join(members, ", "));
+}
+
+std::string struct_text(const ExportedModel& model, const ExportedValues& values) {
+    return prepared(model, parameters_text(model, values));
 }
 
 std::vector<ExportedModel> models_of(const ExportedScene& scene) {

@@ -112,6 +112,47 @@ TEST_CASE("generate: each picture becomes one file next to the program, exact to
     }
 }
 
+TEST_CASE("verify: a C++ program has the textures of parameters, for each rate at which light is evaluated") {
+    const fs::path folder = scratch_directory();
+    std::string soft = "P6\n16 16\n255\n";  // values change by a few steps from texel to texel
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            for (const int value :
+                 {90 + 8 * std::abs(x - 8), 200 - 9 * std::abs(y - 8), 60 + 5 * std::abs(x - y)})
+                soft += static_cast<char>(value);
+    write_file(folder / "soft.ppm", soft);
+    const fs::path scene = write_file(
+        folder / "scene.toml",
+        "version = 1\n[observer]\nposition = [0, 1.5, 5]\nlook_at = [0, 0, 0]\n[image]\nwidth = 160\nheight "
+        "= "
+        "100\n[[light]]\ntype = \"point\"\nposition = [-2, 4, 3]\nintensity = 20\n[[light]]\ntype = "
+        "\"ambient\"\n"
+        "[[object]]\nname = \"ball\"\ntype = \"sphere\"\nradius = 0.9\nposition = [-1, 0, 0]\nshading = "
+        "\"phong\"\nreflection = \"disney\"\n[object.material]\nmetallic = { texture = \"soft.ppm\", channel "
+        "= "
+        "\"r\", transform = { scale = [3, 2], rotation = 20, offset = [0.3, 0.1] } }\nroughness = { texture "
+        "= "
+        "\"soft.ppm\", channel = \"g\", scale = -0.5, offset = 0.9 }\n"
+        "[[object]]\nname = \"ring\"\ntype = \"torus\"\nposition = [1.2, 0, 0]\nrotation = [60, 20, "
+        "0]\nshading = "
+        "\"gouraud\"\nreflection = \"phong\"\ncolor_texture = \"soft.ppm\"\n[object.material]\nkd = { "
+        "texture = "
+        "\"soft.ppm\", wrap = \"clamp\", scale = [1, 0.7, 0.2] }\nshininess = { texture = \"soft.ppm\", "
+        "channel = "
+        "\"b\", scale = 40, offset = 4 }\n"
+        "[[object]]\nname = \"floor\"\ntype = \"cube\"\nsize = 3\nposition = [0, -3, 0]\nshading = "
+        "\"flat\"\nreflection = \"phong\"\n[object.material]\nks = 0\nkd = { texture = \"soft.ppm\", "
+        "encoding = "
+        "\"linear\" }\n");
+    const CommandResult result = run_candela({"verify", scene.string(), "--target", "cpp"});
+    CHECK(succeeded(result).out.find("match") != std::string::npos);
+    succeeded(
+        run_candela({"generate", scene.string(), "--target", "cpp", "-o", (folder / "program").string()}));
+    const std::string program = read_file(folder / "program/scene.cpp");
+    CHECK(holds(program, "own.disney_material = disney_prepare(m);"));
+    CHECK(holds(program, "m.kd.y = number_of(texel_0.y, 0.7f, 0.0f, 0.0f, 1.0f);"));
+}
+
 TEST_CASE("generate: the program of a scene without textures does not mention textures") {
     for (const char* const target : {"cpp", "opengl"}) {
         const fs::path program = scratch_directory() / target;

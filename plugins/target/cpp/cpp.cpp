@@ -42,7 +42,7 @@ class CppWriter {
         : scene_(scene),
           lights_(lights_of(scene)),
           objects_(scene),
-          textures_(textures_of(scene)),
+          textures_(textures_of(scene, objects_.textured_materials())),
           shadows_(shadow_texts(scene)) {}
 
     std::string run() {
@@ -98,6 +98,13 @@ class CppWriter {
             {"LIGHTS", lights_.constants},
             {"ENUMS", enums()},
             {"OBJECT_MEMBERS", members()},
+            {"MATERIAL_STRUCT", if_textured(fmt::format("struct Material {{\n{}}};\n\n", materials()))},
+            {"MATERIAL_BASE", if_textured(" : Material")},
+            {"LIT_TYPE", lit_type()},
+            {"LIT", if_textured("own", "o")},
+            {"OWN_PARAMETER", if_textured(", const Material& own")},
+            {"OWN_WITHIN", if_textured(", material_within(o, triangle, b)")},
+            {"OWN_AT_VERTEX", if_textured(", material_at_vertex(o, v)")},
             {"SHAPES", objects_.shapes()},
             {"OBJECTS", objects_.statements()},
             {"SHADING", shading()},
@@ -148,6 +155,13 @@ class CppWriter {
             std::ranges::any_of(scene_.shadings, [](const auto& m) { return m.needs.triangle; });
         return sees ? text : "";
     }
+
+    /// In a program in which textures give numbers of materials.
+    std::string if_textured(std::string text, const char* otherwise = "") const {
+        return objects_.textured_materials().empty() ? otherwise : std::move(text);
+    }
+    /// What has an object's reflection model and its material.
+    std::string lit_type() const { return if_textured("Material", "Object"); }
 
     /// Colours at vertices; empty in a program without them.
     std::string if_colors(const char* text) const { return objects_.has_vertex_colors() ? text : ""; }
@@ -230,14 +244,24 @@ class CppWriter {
     std::string members() const {
         std::string text;
         if (scene_.shadings.size() > 1) text += "    Shading shading{};\n";
-        if (scene_.reflections.size() > 1) text += "    Reflection reflection{};\n";
+        if (objects_.textured_materials().empty())
+            text += materials();
+        else
+            text +=
+                "    int textured = -1;  // the number of its material in material_at(), if that has "
+                "textures\n";
         if (!scene_.textures.empty()) text += "    ColorTexture texture;\n";
-        const auto add = [&](const ExportedModel& model, const std::string& name) {
-            if (has_parameters(model)) text += fmt::format("    {} {}{{}};\n", constants_type(model), name);
-        };
-        for (const auto& model : scene_.reflections) add(model, material_member(model));
-        for (const auto& model : scene_.shadings) add(model, shading_member(model));
+        for (const auto& model : scene_.shadings) text += member(model, shading_member(model));
         return text;
+    }
+    std::string materials() const {
+        std::string text;
+        if (scene_.reflections.size() > 1) text += "    Reflection reflection{};\n";
+        for (const auto& model : scene_.reflections) text += member(model, material_member(model));
+        return text;
+    }
+    static std::string member(const ExportedModel& model, const std::string& name) {
+        return has_parameters(model) ? fmt::format("    {} {}{{}};\n", constants_type(model), name) : "";
     }
 
     /// The body of a function that calls one of several models, one line each.
@@ -282,12 +306,13 @@ class CppWriter {
                 return call(m, suffix, "o." + material_member(m), arguments);
             };
         };
+        const std::string object = "const " + lit_type() + "&";
         return "// The light that an object reflects of light from one direction, and of light from "
                "everywhere.\n" +
                function("Reflected", "reflected",
-                        {{"const Object&", "o"}, {"const Surface&", "s"}, {"vec3", "to_light"}},
+                        {{object.c_str(), "o"}, {"const Surface&", "s"}, {"vec3", "to_light"}},
                         reflection_choice(call_of("reflect", "s, to_light"))) +
-               function("vec3", "reflected_ambient", {{"const Object&", "o"}, {"const Surface&", "s"}},
+               function("vec3", "reflected_ambient", {{object.c_str(), "o"}, {"const Surface&", "s"}},
                         reflection_choice(call_of("reflect_ambient", "s")));
     }
 
@@ -339,7 +364,11 @@ class CppTarget final : public Target {
     explicit CppTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.triangle = true, .vertex_colors = true, .textures = true, .shadows = true};
+        return {.triangle = true,
+                .vertex_colors = true,
+                .textures = true,
+                .textured_numbers = true,
+                .shadows = true};
     }
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::write(files, main_file(), CppWriter(scene).run());

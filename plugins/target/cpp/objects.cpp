@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -95,12 +96,49 @@ void CppObjects::add_object(std::size_t index) {
         add(scene_.reflections[i], material_member(scene_.reflections[i]), object.materials[i]);
     for (std::size_t i = 0; i < scene_.shadings.size(); ++i)
         add(scene_.shadings[i], shading_member(scene_.shadings[i]), object.shadings[i]);
+    if (!object.textured_numbers.empty()) {
+        text += fmt::format("        o.textured = {};\n", textured_count_);
+        textured_materials_ += textured_material(textured_count_++, object);
+    }
     if (casts_shadows(scene_)) {
         if (!object.casts_shadows) text += "        o.casts_shadows = false;\n";
         if (!object.receives_shadows) text += "        o.receives_shadows = false;\n";
         if (!is_solid) text += "        o.is_solid = false;\n";
     }
     statements_ += text + "        all.push_back(o);\n    }\n";
+}
+
+/// Sets the numbers of an object's material that textures give.
+std::string CppObjects::textured_material(std::size_t number, const ExportedObject& object) const {
+    const ExportedReflection& model = scene_.reflections[object.reflection];
+    std::string texels, sets;
+    std::vector<std::string> lookups;
+    for (const ExportedTexturedNumber& n : object.textured_numbers) {
+        const std::string lookup = fmt::format(
+            "texture_at({{&texture_{}(), {}}}, placed({{{}, {}}}, at))", n.texture, n.repeats,
+            list(n.placing[0], n.placing[1], n.placing[2]), list(n.placing[3], n.placing[4], n.placing[5]));
+        const auto known = std::ranges::find(lookups, lookup);
+        const auto place = static_cast<std::size_t>(known - lookups.begin());
+        if (known == lookups.end()) {
+            texels += fmt::format("        const vec3 texel_{} = {};\n", lookups.size(), lookup);
+            lookups.push_back(lookup);
+        }
+        const ParamSpec& parameter = model.plugin->parameters[n.parameter];
+        constexpr const char* k_channels[] = {".x", ".y", ".z"};
+        const auto finite = [](float x) {
+            constexpr float k_largest = std::numeric_limits<float>::max();
+            return float_text(std::clamp(x, -k_largest, k_largest));
+        };
+        sets += fmt::format("        m.{}{} = number_of(texel_{}{}, {}, {}, {}, {});\n", parameter.name,
+                            parameter.type == ParamType::real ? "" : k_channels[n.channel], place,
+                            k_channels[n.texel_channel], float_text(n.scale), float_text(n.offset),
+                            finite(n.minimum), finite(n.maximum));
+    }
+    return fmt::format(
+        "    if (o.textured == {}) {{  // {}\n{}        {} m = {};\n{}        own.{} = {};\n    }}\n", number,
+        ascii_identifier(object.label), texels, model.plugin->kernel.parameters,
+        parameters_text(model, object.materials[object.reflection]), sets, material_member(model),
+        prepared(model, "m"));
 }
 
 std::string CppObjects::grid_text(const ExportedObject& object, const GridShape& grid,

@@ -10,12 +10,13 @@
 
 CANDELA_EMBED(candela_cpp_textures, CANDELA_SOURCE_DIR "/templates/textures.h");
 CANDELA_EMBED(candela_cpp_texture_seen, CANDELA_SOURCE_DIR "/templates/texture_seen.h");
+CANDELA_EMBED(candela_cpp_textured_material, CANDELA_SOURCE_DIR "/templates/textured_material.h");
 
 namespace candela::cpp_target {
 
 using namespace target;
 
-TextureTexts textures_of(const ExportedScene& scene) {
+TextureTexts textures_of(const ExportedScene& scene, const std::string& textured_materials) {
     if (scene.textures.empty()) return {};
     std::string images;
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
@@ -28,7 +29,10 @@ TextureTexts textures_of(const ExportedScene& scene) {
     return {filled(candela_cpp_textures, {{"FILE", std::string(texture_file_source())},
                                           {"KERNEL", std::string(texture_kernel())},
                                           {"PICTURES", images}}),
-            candela_cpp_texture_seen};
+            candela_cpp_texture_seen +
+                (textured_materials.empty()
+                     ? std::string()
+                     : filled(candela_cpp_textured_material, {{"CASES", textured_materials}}))};
 }
 
 const char* readme_of_textures() {

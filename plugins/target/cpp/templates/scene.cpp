@@ -70,7 +70,7 @@ struct Mesh {
 };
 
 @ENUMS@
-struct Object {
+@MATERIAL_STRUCT@struct Object@MATERIAL_BASE@ {
     Mesh mesh;
     vec3 position, rotation;  // degrees about x, then y, then z
     vec3 scale = vec3(1.0f);
@@ -201,14 +201,14 @@ void draw_triangle(const Object& o, int object, int triangle, vec2 offset, doubl
 @SHADOWS@
 @LIGHT_FLAGS@
 // The sum over all lights at a place: ambient, diffuse and specular light.
-vec3 lights_at(const Object& o, const Surface& s, const Receiver& r@PLACE_PARAMETER@) {
+vec3 lights_at(const @LIT_TYPE@& o, const Surface& s, const Receiver& r@PLACE_PARAMETER@) {
     vec3 sum(0.0f);
 @LIGHT_LOOPS@
     return sum;
 }
 
 // The intensity that a place of an object sends to the observer.
-vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@TINT_PARAMETER@, bool is_back@AT_PARAMETER@) {
+vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@TINT_PARAMETER@@OWN_PARAMETER@, bool is_back@AT_PARAMETER@) {
     Surface s;
     s.normal = (is_back ? -1.0f : 1.0f) * shading_normal(o, point@TRIANGLE_ARGUMENT@);
     s.to_observer = k_is_perspective ? normalize(k_eye - place) : -k_forward;
@@ -217,7 +217,7 @@ vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGL
     Receiver r;
     r.position = place;
     r.normal = s.normal;
-    return lights_at(o, s, r@PLACE@);
+    return lights_at(@LIT@, s, r@PLACE@);
 }
 
 template <class T>
@@ -239,7 +239,7 @@ vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back@PIXEL_
     p.uv = blend(m.uv, m, triangle, b);
     p.dpdu = blend(m.dpdu, m, triangle, b);
     p.dpdv = blend(m.dpdv, m, triangle, b);
-    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@TINT_WITHIN@, is_back@AT_TRIANGLE@);
+    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@TINT_WITHIN@@OWN_WITHIN@, is_back@AT_TRIANGLE@);
 }
 
 vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back@TREE_PARAMETER@) {
@@ -250,7 +250,7 @@ vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back@TREE_PARAM
     p.uv = o.mesh.uv.empty() ? vec2(0.0f) : o.mesh.uv[v];
     p.dpdu = at(o.mesh.dpdu);
     p.dpdv = at(o.mesh.dpdv);
-    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@TINT_AT_VERTEX@, is_back@AT_VERTEX@);
+    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@TINT_AT_VERTEX@@OWN_AT_VERTEX@, is_back@AT_VERTEX@);
 }
 
 vec3 intensity_seen(const Object& o, const Seen& seen@PIXEL_PARAMETER@) {

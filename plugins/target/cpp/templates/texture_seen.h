@@ -1,22 +1,50 @@
-// The colour of an object's texture at a place in a triangle. A pixel covers an area of the picture; a face's centre and a
-// vertex are points in it.
-vec3 texture_within(const Object& o, int triangle, vec3 b) {
-    if (o.texture.levels == nullptr) return vec3(1.0f);
+// A place where textures are looked up: a pixel, which covers an area of the picture, or a point: a face's centre, a vertex.
+struct TexturePlace {
+    vec2 uv;
+    bool is_pixel = false;
+    vec3 edge1, edge2;  // of its triangle, from one corner,
+    vec2 uv1, uv2;      // and how the texture coordinates change along them
+    vec3 line;          // of sight
+    float pixel = 0;    // its size, metres
+};
+
+TexturePlace place_within(const Object& o, int triangle, vec3 b) {
     const Mesh& m = o.mesh;
-    float level = 0;
-    if (rate_of(o) == Rate::pixel) {
-        const int* const v = &m.corners[3 * static_cast<std::size_t>(triangle)];
-        const auto p = [&](int k) { return m.position[static_cast<std::size_t>(v[k])]; };
-        const auto uv = [&](int k) { return m.uv[static_cast<std::size_t>(v[k])]; };
-        const vec3 line = k_is_perspective ? blend(m.position, m, triangle, b) - k_eye : k_forward;
-        const float pixel = (k_is_perspective ? dot(k_forward, line) : 1.0f) / static_cast<float>(k_pixels_per_unit);
-        const vec2 size(static_cast<float>(color_texture_width(o.texture, 0)), static_cast<float>(color_texture_height(o.texture, 0)));
-        level = color_texture_level(p(1) - p(0), p(2) - p(0), uv(1) - uv(0), uv(2) - uv(0), line, pixel * k_right, pixel * k_top, size);
-    }
-    return color_texture_at(o.texture, blend(m.uv, m, triangle, b), level);
+    TexturePlace at;
+    at.uv = blend(m.uv, m, triangle, b);
+    at.is_pixel = rate_of(o) == Rate::pixel;
+    if (!at.is_pixel) return at;
+    const int* const v = &m.corners[3 * static_cast<std::size_t>(triangle)];
+    const auto p = [&](int k) { return m.position[static_cast<std::size_t>(v[k])]; };
+    const auto uv = [&](int k) { return m.uv[static_cast<std::size_t>(v[k])]; };
+    at.edge1 = p(1) - p(0);
+    at.edge2 = p(2) - p(0);
+    at.uv1 = uv(1) - uv(0);
+    at.uv2 = uv(2) - uv(0);
+    at.line = k_is_perspective ? blend(m.position, m, triangle, b) - k_eye : k_forward;
+    at.pixel = (k_is_perspective ? dot(k_forward, at.line) : 1.0f) / static_cast<float>(k_pixels_per_unit);
+    return at;
+}
+
+TexturePlace place_at_vertex(const Object& o, std::size_t v) {
+    TexturePlace at;
+    at.uv = o.mesh.uv[v];
+    return at;
+}
+
+vec3 texture_at(ColorTexture t, const TexturePlace& at) {
+    const vec2 size(static_cast<float>(color_texture_width(t, 0)), static_cast<float>(color_texture_height(t, 0)));
+    const float level =
+        at.is_pixel ? color_texture_level(at.edge1, at.edge2, at.uv1, at.uv2, at.line, at.pixel * k_right, at.pixel * k_top, size) : 0.0f;
+    return color_texture_at(t, at.uv, level);
+}
+
+// The colour of an object's texture.
+vec3 texture_within(const Object& o, int triangle, vec3 b) {
+    return o.texture.levels == nullptr ? vec3(1.0f) : texture_at(o.texture, place_within(o, triangle, b));
 }
 
 vec3 texture_at_vertex(const Object& o, std::size_t v) {
-    return o.texture.levels == nullptr ? vec3(1.0f) : color_texture_at(o.texture, o.mesh.uv[v], 0.0f);
+    return o.texture.levels == nullptr ? vec3(1.0f) : texture_at(o.texture, place_at_vertex(o, v));
 }
 

@@ -29,7 +29,9 @@ std::string prepared(const ExportedModel& model, const std::string& parameters);
 /// A call of that function: with the constants as `parameters` if it takes them, then `arguments`.
 std::string call(const ExportedModel& model, std::string_view name, std::string_view parameters,
                  std::string_view arguments);
-/// The struct of a model's parameters with these values: "PhongMaterial{vec3(0.1f), ...}", prepared.
+/// The struct of a model's parameters with these values: "PhongMaterial{vec3(0.1f), ...}".
+std::string parameters_text(const ExportedModel& model, const ExportedValues& values);
+/// The same, prepared.
 std::string struct_text(const ExportedModel& model, const ExportedValues& values);
 
 /// The light, reflection and shading models of a scene, each once.
