@@ -60,6 +60,7 @@ LIGHTS = {
     "ambient": "color = [160, 160, 160]\nintensity = 6",
     "directional": "direction = [-1, -1.2, -1]",
     "distributed": "position = [1.6, 2.2, 2.4]\nedge_u = [1, 0, -1]\nintensity = 12",
+    "environment": f'picture = "{ENVIRONMENT.name}"\nsamples = 256\nintensity = 0.8\nbackground = true',
     "hemisphere": "sky_color = [190, 215, 255]\nground_color = [90, 70, 50]\nintensity = 6",
     "point": "position = [1.6, 2.2, 2.4]\nintensity = 12",
     "spot": "position = [1.6, 2.2, 2.4]\ndirection = [-1.6, -2.2, -2.4]\ninner_angle = 8\nouter_angle = 16\nintensity = 14",
@@ -128,7 +129,11 @@ class Model:
         self.manifest = manifest
         self.kind, self.name, self.title = manifest["kind"], manifest["name"], manifest["title"]
         self.file = f"{self.kind}-{self.name}"
-        self.source = ROOT / "plugins" / self.kind / f"{self.name}.kernel"
+        folder = ROOT / "plugins" / self.kind
+        self.source = folder / f"{self.name}.kernel"
+        self.is_folder = not self.source.exists()
+        if self.is_folder:
+            self.source = folder / self.name / f"{self.name}.kernel"
         self.kernel = read_kernel(self.source.read_text(encoding="utf-8")) if self.source.exists() else Kernel()
 
     def part(self):
@@ -155,6 +160,7 @@ class Model:
                 "shading": PHONG_REFLECTION + LAMP + DIM + COARSE_TEAPOT,
                 "shape": PHONG_SHADING + PHONG_REFLECTION + LAMP + DIM}
         view = {"backdrop": SURROUNDINGS, **SMALL} if self.name in SHOW_SURROUNDINGS else {"backdrop": DARK, **SIZE}
+        part = part.replace(f'"{ENVIRONMENT.name}"', json.dumps(str(ENVIRONMENT)))
         return VIEW.format(**view) + rest[self.kind] + part
 
     def pictures(self):
@@ -210,7 +216,8 @@ def relation(r):
 def paragraph(text):
     """A paragraph of a page, in which names such as light/spot are links."""
     def link(match):
-        if not (ROOT / "plugins" / match[1] / f"{match[2]}.kernel").exists():
+        folder = ROOT / "plugins" / match[1]
+        if not any((folder / name).exists() for name in (f"{match[2]}.kernel", match[2])):
             sys.exit(f"models: there is no model {match[0]}, which a kernel's comment names")
         return f"[{match[0]}]({match[1]}-{match[2]}.md)"
     text = re.sub(rf"\b({'|'.join(KERNEL_KINDS)})/([a-z]+(?:-[a-z]+)*)", link, text)
@@ -227,7 +234,7 @@ LOBE = "Light from 45 degrees, reflected with the values above; the radius is th
 def page(model):
     """The text of the model's page."""
     manifest = model.manifest
-    origin = f"plugins/{model.kind}/{model.name}.kernel"
+    origin = model.source.relative_to(ROOT)
     text = [f"<!-- Written by scripts/models.py{f' from {origin}' if model.source.exists() else ''}. Do not edit. -->\n", f"# {model.title}\n",
             f"`{model.kind}/{model.name}`: {manifest['summary']}\n"]
     if model.part():
@@ -255,7 +262,8 @@ def page(model):
     if manifest.get("reference"):
         text.append(f"## Reference\n\n{paragraph(manifest['reference'].rstrip('.') + '.')}")
     if model.source.exists():
-        text.append(f"The whole model is one file: [{origin}](../../{origin}).\n")
+        whole = "Its mathematics is in" if model.is_folder else "The whole model is one file:"
+        text.append(f"{whole} [{origin}](../../{origin}).\n")
     return "\n".join(text)
 
 

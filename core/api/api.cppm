@@ -8,6 +8,7 @@ module;
 #include "candela/light.h"
 #include "candela/math.h"
 #include "candela/parallel.h"
+#include "candela/picture.h"
 #include "candela/plugin/descriptor.h"
 #include "candela/plugin/needs.h"
 #include "candela/plugin/params.h"
@@ -52,6 +53,7 @@ using candela::EnvironmentReflection;
 using candela::ExitBatch;
 using candela::extension_of;
 using candela::PunctualSource;
+using candela::SkySource;
 using candela::UniformAmbientSource;
 
 // candela/image_format.h
@@ -85,6 +87,10 @@ using candela::current_threads;
 using candela::FunctionRef;
 using candela::parallel_for;
 using candela::with_threads;
+
+// candela/picture.h
+using candela::Picture;
+using candela::read_picture;
 
 // candela/plugin/needs.h
 using candela::ShadingNeeds;

@@ -4,6 +4,7 @@ namespace candela {
 
 PunctualSource::~PunctualSource() = default;
 UniformAmbientSource::~UniformAmbientSource() = default;
+SkySource::~SkySource() = default;
 AllLightsReflection::~AllLightsReflection() = default;
 Environment::~Environment() = default;
 EnvironmentReflection::~EnvironmentReflection() = default;

@@ -3,6 +3,8 @@ module;
 #include "candela/plugin/export.h"
 
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,8 +45,34 @@ CANDELA_EXPORT std::optional<DecodedImage> read_by_plugin(const std::filesystem:
                                                           Registry& registry, ColorEncoding encoding,
                                                           bool with_opacity = false);
 
+/// Reads a picture's linear intensities, finite and >= 0; 8-bit colours are decoded according to `encoding`.
+/// Throws Error (failure) if no image plugin supports the format or the file is unreadable. Any thread.
+CANDELA_EXPORT Picture read_intensities(const std::filesystem::path& file, Registry& registry,
+                                        ColorEncoding encoding);
+
 /// " (possible: pnm, png)", and the package of the other formats if their plugin is not installed. Throws
 /// Error like Registry::extensions(). Any thread.
 CANDELA_EXPORT std::string possible_formats(Registry& registry, FormatUse use);
+
+}  // namespace candela
+
+namespace candela {
+
+/// While there is one, plugins of this thread may call read_picture(). Keeps what they read.
+class PictureAccess {
+  public:
+    PictureAccess(Registry& registry, ColorEncoding encoding);
+    ~PictureAccess();
+    PictureAccess(const PictureAccess&) = delete;
+    PictureAccess& operator=(const PictureAccess&) = delete;
+
+    std::shared_ptr<const Picture> read(const std::string& path);
+
+  private:
+    Registry& registry_;
+    ColorEncoding encoding_;
+    PictureAccess* outer_;
+    std::map<std::string, std::shared_ptr<const Picture>> read_;
+};
 
 }  // namespace candela

@@ -161,15 +161,42 @@ class SceneBuilder {
     }
 
     void make_environment() {
+        const auto background = std::ranges::find_if(scene_.lights, &LightSource::is_background);
+        if (background != scene_.lights.end())
+            return show(static_cast<std::size_t>(background - scene_.lights.begin()));
         built_.environment = EnvironmentMap(decoded(scene_.image.background, encoding()));
         if (scene_.image.environment.empty()) return;
-        if (before_ != nullptr && before_->scene.image.environment == scene_.image.environment) {
+        if (before_ != nullptr && before_->scene.image.environment == scene_.image.environment &&
+            std::ranges::none_of(before_->scene.lights, &LightSource::is_background)) {
             built_.environment = std::move(before_->built.environment);
             return;
         }
         guarded("environment", scene_.image.environment_place, [&] {
             built_.environment = read_environment(scene_.image.environment, registry_, encoding());
         });
+    }
+
+    /// Makes a light the environment.
+    void show(std::size_t index) {
+        if (index >= built_.lights.size()) return;  // an error has been reported
+        const LightSource& source = scene_.lights[index];
+        if (before_ != nullptr && index < before_->scene.lights.size() &&
+            before_->scene.lights[index].is_background &&
+            before_->scene.lights[index].model == source.model) {
+            built_.environment = std::move(before_->built.environment);
+            return;
+        }
+        const auto* const sky = extension_of<SkySource>(*built_.lights[index].light);
+        if (sky == nullptr) {
+            diagnostics_.error(source.background_place,
+                               fmt::format("light {}: light/{} cannot be the background, because it does not "
+                                           "come from everywhere",
+                                           source.label.text(), source.model.name),
+                               "remove 'background', or use a light such as environment or sky");
+            return;
+        }
+        guarded("light " + source.label.text(), source.place,
+                [&] { built_.environment = environment_of(*sky); });
     }
 
     /// Runs what a shape plugin or a shading model does to an object.

@@ -131,13 +131,15 @@ struct LightSource {
     Model model;
     bool casts_shadows = true;
     AmbientOcclusion ambient_occlusion{};  // of its ambient part
+    bool is_background = false;            // seen where there is no object, instead of ImageSettings' own
     SourceLocation place;
-    SourceLocation position_place{};  // of its 'position', or of the whole light
+    SourceLocation position_place{};    // of its 'position', or of the whole light
+    SourceLocation background_place{};  // of its 'background', or of the whole light
 
     /// Ignores positions in the file.
     friend inline bool operator==(const LightSource& a, const LightSource& b) {
         return a.label == b.label && a.model == b.model && a.casts_shadows == b.casts_shadows &&
-               a.ambient_occlusion == b.ambient_occlusion;
+               a.ambient_occlusion == b.ambient_occlusion && a.is_background == b.is_background;
     }
 };
 

@@ -206,7 +206,8 @@ class Reader {
         LightSource light{.label = label_of("light", table, index),
                           .model = {},
                           .place = place,
-                          .position_place = place_of(table, "position", place)};
+                          .position_place = place_of(table, "position", place),
+                          .background_place = place};
         const TableContext context{fmt::format("[[light]] {}", short_text(light.label)),
                                    {Help::Topic::plugins_of_kind, "light"},
                                    place};
@@ -214,10 +215,23 @@ class Reader {
         own_tables().light.assign(&table, own.set, light);
         auto values = read_typed("light", PluginKind::light, table, own.set, context, {});
         if (light.ambient_occlusion.rays > 0) warn_without_ambient(table, light);
+        if (light.is_background) check_background(light);
         // Its position can be checked whatever else is wrong with it.
         if (!values || !values->is_valid("position")) return;
         light.model.parameters = std::move(values->set);
         scene_.lights.push_back(std::move(light));
+    }
+
+    void check_background(const LightSource& light) {
+        if (!background_light_.empty())
+            diagnostics_.error(light.background_place, fmt::format("light {} is the background already; "
+                                                                   "expected one light with 'background'",
+                                                                   background_light_));
+        background_light_ = light.label.text();
+        if (!scene_.image.environment.empty())
+            diagnostics_.warning(
+                scene_.image.environment_place,
+                fmt::format("'environment' has no effect: light {} is the background", background_light_));
     }
 
     void warn_without_ambient(const TableNode& table, const LightSource& light) {
@@ -270,6 +284,7 @@ class Reader {
     SceneDraft draft_;
     Scene& scene_ = draft_.scene;
     std::map<std::string, SourceLocation> names_;
+    std::string background_light_;
 };
 
 void add_files(const Model& model, std::vector<std::filesystem::path>& files) {

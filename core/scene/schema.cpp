@@ -144,6 +144,13 @@ Table<LightSource> light() {
                &LightSource::ambient_occlusion, &AmbientOcclusion::distance)
              .unit("m")
              .above(0)
+             .omitted_by_default(),
+         field(Type::boolean, "background",
+               "whether the light is seen where there is no object and in objects that mirror or refract; "
+               "only lights that come from everywhere, such as environment and sky; replaces [image] "
+               "background",
+               &LightSource::is_background)
+             .placed(&LightSource::background_place)
              .omitted_by_default()}};
 }
 

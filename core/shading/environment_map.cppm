@@ -42,4 +42,7 @@ class CANDELA_EXPORT EnvironmentMap {
 CANDELA_EXPORT EnvironmentMap read_environment(const std::filesystem::path& file, Registry& registry,
                                                ColorEncoding encoding);
 
+/// The environment that shows a light.
+CANDELA_EXPORT EnvironmentMap environment_of(const SkySource& sky);
+
 }  // namespace candela

@@ -32,7 +32,7 @@ const std::vector<KindFunctions>& all_kinds() {
         {PluginKind::reflection, {"reflect"}, {"reflect_ambient", "enter", "leave", "transmit", "prepare"}},
         {PluginKind::light,
          {"illuminate", "illuminate_ambient"},
-         {"sample_count", "punctual", "extent", "distance", "prepare"}},
+         {"sample_count", "punctual", "extent", "distance", "seen", "prepare"}},
         {PluginKind::shading, {"normal"}, {"corner_weight", "prepare"}}};
     return k_kinds;
 }

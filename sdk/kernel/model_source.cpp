@@ -248,6 +248,11 @@ class SourceWriter {
     }
 
     std::string light_class() const {
+        if (!has("seen")) return unseen_light_class();
+        return fmt::format("VisibleLight<{}, {}, {}>", unseen_light_class(), constants_, function("seen"));
+    }
+
+    std::string unseen_light_class() const {
         if (has("illuminate_ambient"))
             return fmt::format("KernelAmbientLight<{}, {}>", constants_, function("illuminate_ambient"));
         const std::string distance = has("distance") ? ", " + function("distance") : "";

@@ -100,6 +100,16 @@ class Exporter {
                         "[image] environment: the background of a generated program is one colour, not an "
                         "environment map");
         }
+        for (const LightSource& light : scene_.lights) {
+            if (light.is_background && !request_.abilities.surroundings)
+                throw Error(ErrorCategory::failure,
+                            fmt::format("light {}: 'background' is set, but the background of a generated "
+                                        "program is one colour; --set light.{}.background=false leaves the "
+                                        "light as it is",
+                                        light.label.text(),
+                                        light.label.name.empty() ? fmt::format("{}", light.label.number)
+                                                                 : light.label.name));
+        }
         to_.title = request_.title;
         to_.environment = image.environment;
         for (const SamplePosition& s : sample_pattern(image.samples))

@@ -23,7 +23,54 @@ CommandResult render(const std::string& image, const Folder& directory,
 const std::string k_image = std::string("P6\n4 1\n255\n") + "\xff" + std::string(2, '\0') + "\xff" +
                             std::string(4, '\0') + "\xff" + std::string(2, '\0') + "\xff";
 
+CommandResult render_lit(const std::string& lights, const Folder& directory, const std::string& image = "") {
+    directory.write("scene.toml", "version = 1\n" + image_table(16, 8) + image + "\n" + k_observer +
+                                      models("phong", "lambert") + lights +
+                                      "[[object]]\ntype = \"sphere\"\n");
+    return directory.run("render scene.toml -o out.ppm");
+}
+
+std::string pixels_of(const Folder& directory) {
+    const std::string picture = directory.read("out.ppm");
+    return picture.substr(picture.size() - std::size_t{16} * 8 * 3);
+}
+
 }  // namespace
+
+TEST_CASE(
+    "a light that is the background is seen as the same picture in [image] is, and lights the objects") {
+    const Folder d({{"sky.ppm", k_image}});
+    const std::string light = "[[light]]\ntype = \"environment\"\npicture = \"sky.ppm\"\n";
+    succeeded(render_lit(light, d, "environment = \"sky.ppm\"\n"));
+    const std::string apart = pixels_of(d);
+    succeeded(render_lit(light + "background = true\n", d));
+    CHECK(pixels_of(d) == apart);
+    // The middle of the sphere, lit from both sides.
+    const std::size_t middle = (4 * 16 + 8) * std::size_t{3};
+    CHECK(static_cast<unsigned char>(apart[middle]) > 60);
+    CHECK(static_cast<unsigned char>(apart[middle + 2]) > 60);
+}
+
+TEST_CASE("a background light in a wrong place is reported there") {
+    const Folder d({{"sky.ppm", k_image}});
+    const std::string light = "[[light]]\ntype = \"environment\"\nbackground = true\n";
+    expect(render_lit("[[light]]\ntype = \"point\"\nposition = [0, 3, 3]\nbackground = true\n", d), 3,
+           {"error: light number 0: light/point cannot be the background", "remove 'background'"});
+    expect(render_lit(light + light, d), 3,
+           {"error: light number 0 is the background already; expected one light with 'background'"});
+    expect(render_lit(light, d, "environment = \"sky.ppm\"\n"), 0,
+           {"warning: 'environment' has no effect: light number 0 is the background"});
+    expect(render_lit("[[light]]\ntype = \"environment\"\nvisible = true\n", d), 3, {"background"});
+    expect(d.run("generate scene.toml --target cpp -o program"), 3, {"background"});
+}
+
+TEST_CASE("a program is refused for a light that is the background, with what to do") {
+    const Folder d;
+    succeeded(render_lit("[[light]]\nname = \"all\"\ntype = \"environment\"\nbackground = true\n", d));
+    expect(d.run("generate scene.toml --target cpp -o program"), 1,
+           {"the background of a generated program is one colour", "--set light.all.background=false"});
+    expect(d.run("generate scene.toml --target cpp -o program --set light.all.background=false"), 0);
+}
 
 TEST_CASE("an environment picture, relative to the scene's file, is visible around the object") {
     const Folder d({{"sky.ppm", k_image}});

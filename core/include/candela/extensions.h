@@ -39,6 +39,19 @@ class CANDELA_EXPORT UniformAmbientSource {
     virtual Rgb as_ambient() const = 0;
 };
 
+/// A Light from infinitely far away that can be seen, such as a sky: the background of a scene may show it.
+class CANDELA_EXPORT SkySource {
+  public:
+    virtual ~SkySource();
+
+    /// The number of columns that an equirectangular picture of it needs to show all details, at least 2.
+    virtual int sky_columns() const noexcept = 0;
+
+    /// Writes the intensity, per channel, that arrives from the directions `towards` (unit vectors). A matt
+    /// white surface that sees the same intensity everywhere reflects that intensity, up to sampling.
+    virtual void see(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) const = 0;
+};
+
 /// A ReflectionModel that evaluates all lights at once, without writing and reading vectors for each light.
 /// Models made of kernel functions do.
 class CANDELA_EXPORT AllLightsReflection {

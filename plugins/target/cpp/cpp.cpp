@@ -160,7 +160,7 @@ class CppWriter {
     std::string if_textured(std::string text, const char* otherwise = "") const {
         return objects_.textured_materials().empty() ? otherwise : std::move(text);
     }
-    /// What has an object's reflection model and its material.
+    /// The struct that has an object's reflection model and its material.
     std::string lit_type() const { return if_textured("Material", "Object"); }
 
     /// Colours at vertices; empty in a program without them.

@@ -30,6 +30,7 @@ struct Field {
     mat3 Params::* matrix = nullptr;
     Table Params::* table = nullptr;
     std::vector<float> (*read_table)(const char* path) = nullptr;  // of a table that is made from a file
+    bool makes_without_file = false;  // read_table is also called, with "", if no file is given
 
     void store(Params& params, const ParamValue& value) const {
         if (real != nullptr) params.*real = value.number[0];
@@ -52,7 +53,8 @@ struct Field {
         if (table == nullptr) return {};
         if (read_table == nullptr) return {value.list.begin(), value.list.end()};
         const bool is_given = value.text != nullptr && *value.text != '\0';
-        return is_given ? read_table(value.text) : std::vector<float>();
+        if (is_given) return read_table(value.text);
+        return makes_without_file ? read_table("") : std::vector<float>();
     }
 
     const void* member_of(const Params& params) const {
@@ -88,6 +90,12 @@ struct Field {
     /// For a file: if it is not set, the text is empty or the table has no numbers.
     constexpr Field optional() const {
         return with([&](ParamSpec& s) { s.required = false; });
+    }
+    /// Like optional(), but `read` makes the table of "".
+    constexpr Field made_without_file() const {
+        Field result = optional();
+        result.makes_without_file = true;
+        return result;
     }
 
   private:

@@ -29,6 +29,11 @@
 //     float x_distance(XLight light, Receiver r)
 //     float x_distance(XLight light, Receiver r, int index)
 //
+// A light that comes from everywhere may be seen, as a scene's background:
+//
+//     // the intensity that arrives from the direction `towards`
+//     vec3 x_seen(XLight light, vec3 towards)
+//
 // A light that reads nothing of the receiver is described without one. The conformance kit checks the
 // description against the other functions.
 #pragma once
@@ -189,6 +194,26 @@ class AmbientLightParams<Params> : public LightParams<Params>, public UniformAmb
     Rgb as_ambient() const override {
         const vec3 same = uniform_ambient(this->params());
         return {same.x, same.y, same.z};
+    }
+};
+
+template <class Params, auto seen>
+struct SeenLoop {
+    CANDELA_BATCH_LOOP static void run(Params light, ConstVec3Span towards, std::size_t count,
+                                       Vec3Span intensity) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) store(intensity, i, call<seen>(light, load(towards, i)));
+    }
+};
+
+/// A kernel's light that is also a SkySource.
+template <class Light, class Params, auto seen>
+class VisibleLight : public Light, public SkySource {
+  public:
+    explicit VisibleLight(const Params& params) : Light(params) {}
+    int sky_columns() const noexcept override { return 1024; }
+    void see(std::size_t count, const ConstVec3Span& towards, const Vec3Span& intensity) const override {
+        multiversion<SeenLoop<Params, seen>>(this->params(), towards, count, intensity);
     }
 };
 

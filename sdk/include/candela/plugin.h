@@ -56,6 +56,11 @@ class WithTables final : public Model {
     template <class Constants>
     WithTables(TableNumbers&& tables, const Constants& constants)
         : Model(constants), tables_(std::move(tables)) {}
+    /// Of a class that also reads values which are not among the constants, such as a file's name.
+    template <class Constants>
+        requires std::is_constructible_v<Model, const Constants&, std::span<const ParamValue>>
+    WithTables(TableNumbers&& tables, const Constants& constants, std::span<const ParamValue> values)
+        : Model(constants, values), tables_(std::move(tables)) {}
 
     std::span<const float> table(std::size_t parameter) const noexcept override {
         return parameter < tables_.size() ? std::span<const float>(tables_[parameter])
@@ -116,7 +121,12 @@ Instance* created(std::span<const ParamValue> values) {
             table.count = static_cast<int>(tables[i].size());
             params.*fields[i].table = table;
         }
-        return new WithTables<Model>(std::move(tables), Preparation::run(params));
+        using Constants = std::remove_cvref_t<decltype(Preparation::run(params))>;
+        if constexpr (std::is_constructible_v<Model, const Constants&, std::span<const ParamValue>>) {
+            return new WithTables<Model>(std::move(tables), Preparation::run(params), values);
+        } else {
+            return new WithTables<Model>(std::move(tables), Preparation::run(params));
+        }
     } else if constexpr (can_vary<Model, Params, Preparation, fields>()) {
         return new typename Model::template Varying<Params, Preparation, fields>(params);
     } else {
