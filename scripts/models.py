@@ -61,8 +61,10 @@ LIGHTS = {
     "directional": "direction = [-1, -1.2, -1]",
     "distributed": "position = [1.6, 2.2, 2.4]\nedge_u = [1, 0, -1]\nintensity = 12",
     "environment": f'picture = "{ENVIRONMENT.name}"\nsamples = 256\nintensity = 0.8\nbackground = true',
+    "gradient": "zenith_color = [235, 240, 255]\nhorizon_color = [200, 170, 150]\nground_color = [60, 50, 45]\nsamples = 256\nbackground = true",
     "hemisphere": "sky_color = [190, 215, 255]\nground_color = [90, 70, 50]\nintensity = 6",
     "point": "position = [1.6, 2.2, 2.4]\nintensity = 12",
+    "sky": "to_sun = [0.8, 0.5, 0.3]\nturbidity = 3\nsamples = 256\nbackground = true",
     "spot": "position = [1.6, 2.2, 2.4]\ndirection = [-1.6, -2.2, -2.4]\ninner_angle = 8\nouter_angle = 16\nintensity = 14",
 }
 MATERIALS = {
