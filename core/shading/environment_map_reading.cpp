@@ -23,6 +23,7 @@ EnvironmentMap read_environment(const std::filesystem::path& file, Registry& reg
 
 EnvironmentMap environment_of(const SkySource& sky) {
     const auto columns = static_cast<std::size_t>(sky.sky_columns()), rows = (columns + 1) / 2;
+    require_memory(3 * columns * rows * sizeof(float), "a background that a light provides");
     std::vector<float> intensity(3 * columns * rows);
     constexpr double k_pi = std::numbers::pi;
     parallel_for(rows, 1, [&](std::size_t begin, std::size_t end) {

@@ -41,7 +41,10 @@ class Environment : public Sampled, public candela::SkySource {
     explicit Environment(const EnvironmentLight& light, std::span<const candela::ParamValue> values = {})
         : Sampled(light), picture_(picture_of(values.empty() ? nullptr : values[0].text)) {}
 
-    int sky_columns() const noexcept override { return std::max(picture_->width, 2); }
+    int sky_columns() const noexcept override {
+        constexpr int k_most = 8192;
+        return std::clamp(std::max(picture_->width, 2 * std::min(picture_->height, k_most)), 2, k_most);
+    }
 
     void see(std::size_t count, const candela::ConstVec3Span& towards,
              const candela::Vec3Span& intensity) const override {

@@ -200,6 +200,20 @@ TEST_CASE("light/environment repeats a pixel that several samples share, and a b
     CHECK(total > 4);
 }
 
+TEST_CASE("light/environment shows pictures of any shape with a bounded number of pixels") {
+    const auto columns = [](int width, int height) {
+        const auto light = instance<Light>(
+            "environment",
+            {{"picture", picture_of([](Double3) { return Double3{1, 1, 1}; }, width, height)}});
+        return candela::extension_of<candela::SkySource>(*light)->sky_columns();
+    };
+    CHECK(columns(1, 1) == 2);
+    CHECK(columns(600, 300) == 600);
+    CHECK(columns(3, 200) == 400);
+    CHECK(columns(20000, 1) == 8192);
+    CHECK(columns(1, 20000) == 8192);
+}
+
 TEST_CASE("light/environment says why a picture cannot be read") {
     const std::filesystem::path path = scratch_directory() / "none.pfm";
     std::ofstream(path) << "PF\n2 1\n-1.0\n";
