@@ -9,6 +9,7 @@ module;
 
 module candela.shading;
 
+import :texture_footprints;
 import candela.api;
 import candela.plugins;
 import candela.raster;
@@ -112,13 +113,19 @@ void evaluate(const MaterialTextures& textures, std::size_t count, const Texture
               std::span<AlignedVector<float>> values) {
     alignas(64) std::array<Numbers, 3> texel;
     PlacedCoordinates placed;
+    TextureFootprints footprints;
+    const TextureTransform* found = nullptr;  // the transform for which they are
     for (std::size_t t = 0; t < textures.textures.size(); ++t) {
         const PlacedTexture& texture = textures.textures[t];
-        const bool is_moved = texture.transform != TextureTransform{};
-        if (is_moved) placed.place(texture.transform, count, at);
+        if (found == nullptr || *found != texture.transform ||
+            !footprints.fit(*texture.picture, texture.wrap)) {
+            const bool is_moved = texture.transform != TextureTransform{};
+            if (is_moved) placed.place(texture.transform, count, at);
+            footprints.find(*texture.picture, texture.wrap, count, is_moved ? placed.at : at);
+            found = &texture.transform;
+        }
         for (Numbers& channel : texel) std::fill_n(channel.begin(), count, 1.0f);
-        texture.picture->multiply(texture.wrap, count, is_moved ? placed.at : at,
-                                  {texel[0].data(), texel[1].data(), texel[2].data()});
+        texture.picture->multiply(footprints, {texel[0].data(), texel[1].data(), texel[2].data()});
         for (std::size_t k = 0; k < textures.numbers.size(); ++k) {
             const TexturedNumber number = textures.numbers[k];
             if (number.texture != t) continue;

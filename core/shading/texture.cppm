@@ -19,6 +19,10 @@ import candela.plugins;
 import candela.scene;
 import candela.util;
 
+namespace candela {
+struct TextureFootprints;
+}
+
 export namespace candela {
 
 /// Texture coordinates of points, and how they change from pixel to pixel: zero if light is evaluated for a
@@ -52,16 +56,21 @@ class CANDELA_EXPORT MipMap {
     /// All levels, one after the other.
     std::span<const std::uint16_t> texels() const noexcept { return texels_; }
 
+    /// Of each level: width, height, first texel, padding.
+    std::span<const std::int32_t> sizes() const noexcept { return sizes_; }
+
     /// Multiplies `color` at each of `count` points by the value of the picture: bilinear within a level,
     /// linear between the two levels whose texels are closest in size to a pixel (of an elongated footprint,
     /// to its longer side).
     void multiply(TextureWrap wrap, std::size_t count, const TextureCoordinates& at,
                   const Vec3Span& color) const noexcept;
+    /// The same, at points that have been found in a picture of the same size.
+    void multiply(const TextureFootprints& at, const Vec3Span& color) const noexcept;
 
   private:
     Texels texels_;
     std::vector<Level> levels_;
-    AlignedVector<std::int32_t> sizes_;  // of each level: width, height, first texel, padding
+    AlignedVector<std::int32_t> sizes_;
 };
 
 /// A picture on a surface.
@@ -99,7 +108,7 @@ struct MaterialTextures {
 /// The matrix of a transform, row by row: u' = m[0] u + m[1] v + m[2], v' with the other three.
 CANDELA_EXPORT std::array<float, 6> placing_of(const TextureTransform& transform) noexcept;
 
-/// Evaluates numbers at `count` points: value i of number k is values[k][i].
+/// Evaluates numbers at `count` points of a batch: value i of number k is values[k][i].
 CANDELA_EXPORT void evaluate(const MaterialTextures& textures, std::size_t count,
                              const TextureCoordinates& at, std::span<AlignedVector<float>> values);
 

@@ -14,19 +14,13 @@ module;
 
 module candela.shading;
 
+import :texture_footprints;
+import candela.raster;
 import candela.util;
 
 namespace candela {
 
 namespace {
-
-constexpr std::size_t k_block = 256;
-
-/// The position of points in one of the levels: the texel to the upper left, the offset to its neighbours,
-/// and the weights of all four, two per number, the upper ones in its lower half.
-struct TexelFootprints {
-    alignas(64) std::array<std::int32_t, k_block> texel, right, below, left_weights, right_weights;
-};
 
 /// The exact sum of a point's weights, so that a picture of one colour has that colour everywhere. The
 /// products of weights and texels, with their sign, fit into 32 bits, even four of them added.
@@ -42,13 +36,6 @@ CANDELA_KERNEL_INLINE float wrapped(float x, bool repeats) {
     return within(repeats ? x - kernel::floor(x) : x, 0.0f, 1.0f);
 }
 
-/// Points in the picture: their positions, from 0 at its upper left corner to 1 at its lower right; the finer
-/// of the two levels between which each lies, and the weight of the coarser one.
-struct Points {
-    alignas(64) std::array<float, k_block> u, v;
-    alignas(64) std::array<std::int32_t, k_block> finer, coarser_weight;
-};
-
 /// Rounds a non-negative number to the nearest integer.
 CANDELA_KERNEL_INLINE std::int32_t rounded(float x) { return static_cast<std::int32_t>(x + 0.5f); }
 
@@ -56,7 +43,8 @@ CANDELA_KERNEL_INLINE std::int32_t rounded(float x) { return static_cast<std::in
 /// zero if all points lie in a level, not between two.
 struct PointsLoop {
     CANDELA_BATCH_LOOP static void run(TextureCoordinates at, bool repeats, float width, float height,
-                                       float last, std::size_t count, Points* points, std::int32_t* between) {
+                                       float last, std::size_t count, PicturePoints* points,
+                                       std::int32_t* between) {
         float *const u = points->u.data(), *const v = points->v.data();
         std::int32_t *const finer = points->finer.data(), *const weight = points->coarser_weight.data();
         std::int32_t any = 0;
@@ -107,7 +95,7 @@ CANDELA_KERNEL_INLINE std::int32_t weight_of_level(std::int32_t coarser_weight) 
 /// any.
 template <int coarser>
 struct InteriorLoop {
-    CANDELA_BATCH_LOOP static void run(MipMap::Level level, const Points* points, std::size_t count,
+    CANDELA_BATCH_LOOP static void run(MipMap::Level level, const PicturePoints* points, std::size_t count,
                                        TexelFootprints* places, std::int32_t* border) {
         const float *const u = points->u.data(), *const v = points->v.data();
         const std::int32_t* const weight = points->coarser_weight.data();
@@ -135,7 +123,7 @@ struct InteriorLoop {
 /// Like the above, for points of any levels, anywhere.
 template <int coarser>
 struct FootprintLoop {
-    CANDELA_BATCH_LOOP static void run(const std::int32_t* sizes, bool repeats, const Points* points,
+    CANDELA_BATCH_LOOP static void run(const std::int32_t* sizes, bool repeats, const PicturePoints* points,
                                        int last, std::size_t count, TexelFootprints* places) {
         const float *const u = points->u.data(), *const v = points->v.data();
         const std::int32_t *const level = points->finer.data(), *const weight = points->coarser_weight.data();
@@ -299,7 +287,7 @@ struct MultiplyByHand {
 };
 
 /// Fills up the last group with copies of the last of `count` points.
-std::size_t fill_group(Points& points, std::size_t count) {
+std::size_t fill_group(PicturePoints& points, std::size_t count) {
     std::size_t end = count;
     for (; end % k_group != 0; ++end) {
         points.u[end] = points.u[count - 1];
@@ -312,49 +300,63 @@ std::size_t fill_group(Points& points, std::size_t count) {
 
 }  // namespace
 
-void MipMap::multiply(TextureWrap wrap, std::size_t count, const TextureCoordinates& at,
-                      const Vec3Span& color) const noexcept {
+void TextureFootprints::find(const MipMap& picture, TextureWrap wrapped, std::size_t of,
+                             const TextureCoordinates& at) {
+    count = of;
+    width = picture.width();
+    height = picture.height();
+    wrap = wrapped;
+    const std::span<const MipMap::Level> levels = picture.levels();
     const bool repeats = wrap == TextureWrap::repeat;
-    const int last = static_cast<int>(levels_.size()) - 1;
-    Points points;
-    TexelFootprints finer, coarser;
+    const int last = static_cast<int>(levels.size()) - 1;
     std::int32_t coarser_weights = 0, border = 0;
     std::int32_t *const between = &coarser_weights, *const is_at_border = &border;
-    const Points* const found = &points;
-    for (std::size_t first = 0; first < count; first += k_block) {
-        const std::size_t part = std::min(k_block, count - first);
-        const TextureCoordinates here{at.uv.from(first), at.per_x.from(first), at.per_y.from(first)};
-        multiversion<PointsLoop>(here, repeats, static_cast<float>(width()), static_cast<float>(height()),
-                                 static_cast<float>(last), part, &points, between);
-        const std::size_t filled = fill_group(points, part);
-        const bool between_levels = coarser_weights != 0;
-        const auto number = static_cast<std::size_t>(points.finer[0]);
-        const Level& level = levels_[number];
-        const Level& next = levels_[std::min(number + 1, levels_.size() - 1)];
-        bool is_interior = are_all_equal(std::span(std::as_const(points.finer)).first(part));
-        if (is_interior) {
-            multiversion<InteriorLoop<0>>(level, found, filled, &finer, is_at_border);
-            is_interior = border == 0;
-        }
-        if (is_interior && between_levels) {
-            multiversion<InteriorLoop<1>>(next, found, filled, &coarser, is_at_border);
-            is_interior = border == 0;
-        }
-        if (!is_interior) {
-            multiversion<FootprintLoop<0>>(sizes_.data(), repeats, found, last, filled, &finer);
-            if (between_levels)
-                multiversion<FootprintLoop<1>>(sizes_.data(), repeats, found, last, filled, &coarser);
-        }
-        const auto multiply_by = [&]<bool is_between, bool inside>() {
-            multiversion<MultiplyByHand<is_between, inside>>(
-                LevelTexels<inside>{texels_.data(), level.width, &finer},
-                LevelTexels<inside>{texels_.data(), next.width, &coarser}, part, color.from(first));
-        };
-        if (between_levels) {
-            is_interior ? multiply_by.operator()<true, true>() : multiply_by.operator()<true, false>();
-        } else {
-            is_interior ? multiply_by.operator()<false, true>() : multiply_by.operator()<false, false>();
-        }
+    PicturePoints* const placed = &points;
+    const PicturePoints* const found = &points;
+    TexelFootprints *const in_finer = &finer, *const in_coarser = &coarser;
+    multiversion<PointsLoop>(at, repeats, static_cast<float>(width), static_cast<float>(height),
+                             static_cast<float>(last), count, placed, between);
+    const std::size_t filled = fill_group(points, count);
+    is_between_levels = coarser_weights != 0;
+    level = static_cast<std::size_t>(points.finer[0]);
+    is_interior = are_all_equal(std::span(std::as_const(points.finer)).first(count));
+    if (is_interior) {
+        multiversion<InteriorLoop<0>>(levels[level], found, filled, in_finer, is_at_border);
+        is_interior = border == 0;
+    }
+    if (is_interior && is_between_levels) {
+        multiversion<InteriorLoop<1>>(levels[std::min(level + 1, levels.size() - 1)], found, filled,
+                                      in_coarser, is_at_border);
+        is_interior = border == 0;
+    }
+    if (is_interior) return;
+    const std::int32_t* const sizes = picture.sizes().data();
+    multiversion<FootprintLoop<0>>(sizes, repeats, found, last, filled, in_finer);
+    if (is_between_levels) multiversion<FootprintLoop<1>>(sizes, repeats, found, last, filled, in_coarser);
+}
+
+void MipMap::multiply(const TextureFootprints& at, const Vec3Span& color) const noexcept {
+    const Level& level = levels_[at.level];
+    const Level& next = levels_[std::min(at.level + 1, levels_.size() - 1)];
+    const auto multiply_by = [&]<bool is_between, bool inside>() {
+        multiversion<MultiplyByHand<is_between, inside>>(
+            LevelTexels<inside>{texels_.data(), level.width, &at.finer},
+            LevelTexels<inside>{texels_.data(), next.width, &at.coarser}, at.count, color);
+    };
+    if (at.is_between_levels) {
+        at.is_interior ? multiply_by.operator()<true, true>() : multiply_by.operator()<true, false>();
+    } else {
+        at.is_interior ? multiply_by.operator()<false, true>() : multiply_by.operator()<false, false>();
+    }
+}
+
+void MipMap::multiply(TextureWrap wrap, std::size_t count, const TextureCoordinates& at,
+                      const Vec3Span& color) const noexcept {
+    TextureFootprints footprints;
+    for (std::size_t first = 0; first < count; first += k_batch_size) {
+        footprints.find(*this, wrap, std::min(k_batch_size, count - first),
+                        {at.uv.from(first), at.per_x.from(first), at.per_y.from(first)});
+        multiply(footprints, color.from(first));
     }
 }
 
