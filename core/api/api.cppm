@@ -33,6 +33,7 @@ using candela::decoded;
 using candela::linear_to_srgb;
 using candela::PixelType;
 using candela::srgb_to_linear;
+using candela::ToneCurve;
 
 // candela/plugin/descriptor.h
 using candela::FileFormat;

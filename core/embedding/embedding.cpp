@@ -102,7 +102,7 @@ struct Scene::Parts {
     template <typename Image, typename Value>
     Image render(PixelType pixels, std::span<const Value> ImageView::* values) {
         const ImageSettings& image = scene->image;
-        Film film(image.width, image.height, pixels, image.color_management);
+        Film film(image.width, image.height, pixels, display_of(*scene));
         renderer.render(*scene, film, {.threads = options.threads, .progress = options.progress});
         const ImageView view = film.view();
         const std::span<const Value> all = view.*values;

@@ -4,6 +4,7 @@ module;
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -17,6 +18,21 @@ import candela.util;
 namespace candela {
 
 std::string_view host_abi() noexcept { return CANDELA_ABI; }
+
+Notation notation_of(const Manifest& manifest, const Parameter& parameter) {
+    if (manifest.kind != PluginKind::light || parameter.name != "intensity" ||
+        parameter.type != ParamType::real)
+        return Notation::plain;
+    const auto has = [&](std::string_view name, ParamType type) {
+        return std::ranges::any_of(manifest.parameters,
+                                   [&](const Parameter& p) { return p.name == name && p.type == type; });
+    };
+    if (has("position", ParamType::point))
+        return has("inner_angle", ParamType::real) && has("outer_angle", ParamType::real)
+                   ? Notation::cone
+                   : Notation::intensity;
+    return has("direction", ParamType::direction) ? Notation::illuminance : Notation::plain;
+}
 
 std::string Manifest::id() const { return fmt::format("{}/{}", candela::name_of(kind), name); }
 

@@ -60,6 +60,10 @@ struct CANDELA_EXPORT Manifest {
     friend bool operator==(const Manifest&, const Manifest&) = default;
 };
 
+/// How a parameter may be written: `intensity` of a light with a `position` is a luminous intensity or flux,
+/// and of one that has only a `direction` an illuminance; all others are plain.
+CANDELA_EXPORT Notation notation_of(const Manifest& manifest, const Parameter& parameter);
+
 /// The fingerprint of this core: interface version, C++ ABI, standard library.
 CANDELA_EXPORT std::string_view host_abi() noexcept;
 

@@ -154,12 +154,32 @@ std::string range_text(const Parameter& p) {
     return "";
 }
 
+namespace {
+
+/// The other ways to write a number: `, or "EV 12"`.
+std::string_view notation_text(Notation notation) {
+    switch (notation) {
+        case Notation::plain:
+            break;
+        case Notation::exposure:
+            return ", or \"EV 12\", or { aperture = 8, time = 0.008, iso = 200 }";
+        case Notation::intensity:
+        case Notation::cone:
+            return ", or \"800 lm\", \"1200 cd\" or \"60 W\"";
+        case Notation::illuminance:
+            return ", or \"5 klx\"";
+    }
+    return "";
+}
+
+}  // namespace
+
 std::string constraint_text(const Parameter& p) {
     const std::string range = range_text(p);
     const std::string tail = range.empty() ? "" : ", " + range;
     switch (p.type) {
         case ParamType::real:
-            return "a number" + tail;
+            return fmt::format("a number{}{}", tail, notation_text(p.notation));
         case ParamType::integer:
             if (!p.choices.empty()) return fmt::format("one of {}", fmt::join(p.choices, ", "));
             return "an integer" + tail;

@@ -27,6 +27,15 @@ using Value = std::variant<bool, std::int64_t, double, std::string, Vec3, Matrix
 /// The number with the fewest decimals that is `x` as a float: 0.1, not 0.10000000149011612.
 CANDELA_EXPORT double shortest(float x);
 
+/// The ways to write a number, apart from plain ones.
+enum class Notation : int {
+    plain,
+    exposure,     // "EV 12", or { aperture, time, iso }
+    intensity,    // of a light that shines in all directions: "800 lm", "1200 cd", "60 W"
+    cone,         // of one that shines into a cone: the same
+    illuminance,  // of one from far away: "5 klx"
+};
+
 /// A `ParamSpec` that owns its memory.
 struct Parameter {
     std::string name{};
@@ -39,6 +48,7 @@ struct Parameter {
     bool minimum_excluded = false;
     bool maximum_excluded = false;
     std::vector<std::string> choices{};
+    Notation notation = Notation::plain;  // the host's addition
 
     friend bool operator==(const Parameter&, const Parameter&) = default;
 };

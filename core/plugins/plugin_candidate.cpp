@@ -136,7 +136,9 @@ std::unique_ptr<PluginFile> Registry::look_at(const fs::path& directory, PluginK
     if (const std::string damage = library_damage(library); !damage.empty())
         return refuse(fmt::format("it cannot be loaded ({}); build it again, or remove it", damage));
     file->library = library;
-    file->schema = std::make_shared<const std::vector<Parameter>>(file->manifest.parameters);
+    std::vector<Parameter> schema = file->manifest.parameters;
+    for (Parameter& parameter : schema) parameter.notation = notation_of(file->manifest, parameter);
+    file->schema = std::make_shared<const std::vector<Parameter>>(std::move(schema));
     return file;
 }
 

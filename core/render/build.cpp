@@ -161,10 +161,13 @@ class SceneBuilder {
     }
 
     void make_environment() {
-        const auto background = std::ranges::find_if(scene_.lights, &LightSource::is_background);
-        if (background != scene_.lights.end())
-            return show(static_cast<std::size_t>(background - scene_.lights.begin()));
-        built_.environment = EnvironmentMap(decoded(scene_.image.background, encoding()));
+        const auto shown = std::ranges::find_if(scene_.lights, &LightSource::is_background);
+        if (shown != scene_.lights.end())
+            return show(static_cast<std::size_t>(shown - scene_.lights.begin()));
+        // Whatever the exposure, the background is shown as it is written.
+        const float exposure = exposure_factor(scene_.observer.exposure);
+        const Rgb background = decoded(scene_.image.background, encoding());
+        built_.environment = EnvironmentMap(exposure == 1 ? background : 1 / exposure * background);
         if (scene_.image.environment.empty()) return;
         if (before_ != nullptr && before_->scene.image.environment == scene_.image.environment &&
             std::ranges::none_of(before_->scene.lights, &LightSource::is_background)) {

@@ -1,10 +1,12 @@
 module;
 
+#include "candela/kernel/kernel.h"
 #include "candela/kernel/simd_dispatch.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -17,6 +19,12 @@ import candela.api;
 import candela.util;
 
 namespace candela {
+
+namespace kernel {
+
+#include "candela/kernel/display.kernel"
+
+}  // namespace kernel
 
 namespace {
 
@@ -73,7 +81,60 @@ struct EncodeLoop {
     }
 };
 
-void encode(const StoredRows& rows, ColorEncoding encoding) {
+/// Intensities before and after exposure and the tone curve.
+struct TonedRow {
+    ConstVec3Span intensity;
+    Vec3Span toned;
+    std::size_t width;
+    float exposure;
+};
+
+/// Brighter than any light; beyond it, curves would compute with infinities.
+constexpr float k_brightest = 1e12f;
+
+template <ToneCurve tone>
+[[gnu::always_inline]] inline kernel::vec3 toned_color(kernel::vec3 exposed) {
+    if constexpr (tone == ToneCurve::khronos_neutral) return kernel::tone_khronos_neutral(exposed);
+    if constexpr (tone == ToneCurve::aces) return kernel::tone_aces(exposed);
+    if constexpr (tone == ToneCurve::agx) return kernel::tone_agx(exposed);
+    if constexpr (tone == ToneCurve::reinhard) return kernel::tone_reinhard(exposed);
+    return exposed;
+}
+
+template <ToneCurve tone>
+struct ToneLoop {
+    CANDELA_BATCH_LOOP static void run(TonedRow row) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < row.width; ++i) {
+            // NaN becomes black.
+            const auto exposed = [&](float x) __attribute__((always_inline)) {
+                return kernel::min(kernel::max(0.0f, row.exposure * x), k_brightest);
+            };
+            const kernel::vec3 shown = toned_color<tone>(kernel::vec3(
+                exposed(row.intensity.x[i]), exposed(row.intensity.y[i]), exposed(row.intensity.z[i])));
+            row.toned.x[i] = shown.x;
+            row.toned.y[i] = shown.y;
+            row.toned.z[i] = shown.z;
+        }
+    }
+};
+
+void tone_row(const TonedRow& row, ToneCurve tone) {
+    switch (tone) {
+        case ToneCurve::none:
+            return multiversion<ToneLoop<ToneCurve::none>>(row);
+        case ToneCurve::khronos_neutral:
+            return multiversion<ToneLoop<ToneCurve::khronos_neutral>>(row);
+        case ToneCurve::aces:
+            return multiversion<ToneLoop<ToneCurve::aces>>(row);
+        case ToneCurve::agx:
+            return multiversion<ToneLoop<ToneCurve::agx>>(row);
+        case ToneCurve::reinhard:
+            return multiversion<ToneLoop<ToneCurve::reinhard>>(row);
+    }
+}
+
+void encode_toned(const StoredRows& rows, ColorEncoding encoding) {
     if (encoding == ColorEncoding::srgb) {
         multiversion<EncodeLoop<true>>(rows);
     } else {
@@ -81,13 +142,48 @@ void encode(const StoredRows& rows, ColorEncoding encoding) {
     }
 }
 
+void encode(const StoredRows& rows, const DisplayTransform& transform) {
+    if (transform.exposure == 1 && transform.tone == ToneCurve::none)
+        return encode_toned(rows, transform.encoding);
+    constexpr std::size_t k_at_once = 256;
+    std::array<float, k_at_once> x{}, y{}, z{};
+    const Vec3Span toned{x.data(), y.data(), z.data()};
+    for (std::size_t row = 0; row < rows.height; ++row) {
+        for (std::size_t first = 0; first < rows.width; first += k_at_once) {
+            const std::size_t count = std::min(k_at_once, rows.width - first);
+            tone_row({rows.intensity.from(row * rows.stride + first), toned, count, transform.exposure},
+                     transform.tone);
+            encode_toned({toned, rows.bytes + row * rows.pitch + 3 * first, count, 1, k_at_once, rows.pitch},
+                         transform.encoding);
+        }
+    }
+}
+
 }  // namespace
 
-Film::Film(int width, int height, PixelType pixels, ColorEncoding encoding)
-    : Film(width, height, pixels, encoding, {0, height}) {}
+Rgb toned(Rgb intensity, const DisplayTransform& transform) noexcept {
+    if (transform.exposure == 1 && transform.tone == ToneCurve::none) return intensity;
+    Rgb shown;
+    const TonedRow one{
+        {&intensity.r, &intensity.g, &intensity.b}, {&shown.r, &shown.g, &shown.b}, 1, transform.exposure};
+    tone_row(one, transform.tone);
+    return shown;
+}
 
-Film::Film(int width, int height, PixelType pixels, ColorEncoding encoding, RowRange rows)
-    : width_(width), height_(height), rows_(rows), pixels_(pixels), encoding_(encoding) {
+Rgb displayed(Rgb intensity, const DisplayTransform& transform) noexcept {
+    const Rgb shown = toned(intensity, transform);
+    const auto encoded = [&](float x) {
+        const float clamped = std::clamp(x, 0.0f, 1.0f);
+        return transform.encoding == ColorEncoding::srgb ? linear_to_srgb(clamped) : clamped;
+    };
+    return {encoded(shown.r), encoded(shown.g), encoded(shown.b)};
+}
+
+Film::Film(int width, int height, PixelType pixels, const DisplayTransform& transform)
+    : Film(width, height, pixels, transform, {0, height}) {}
+
+Film::Film(int width, int height, PixelType pixels, const DisplayTransform& transform, RowRange rows)
+    : width_(width), height_(height), rows_(rows), pixels_(pixels), transform_(transform) {
     const std::size_t channels = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(rows.count());
     require_memory(channels * (pixels == PixelType::byte ? sizeof(std::uint8_t) : sizeof(float)),
                    fmt::format("a picture of {} x {} pixels", width, rows.count()));
@@ -111,7 +207,7 @@ void Film::fill(int x, int y, int width, int height, Rgb intensity) {
     const float channels[3] = {intensity.r, intensity.g, intensity.b};
     std::uint8_t encoded[3];
     const StoredRows one{{&channels[0], &channels[1], &channels[2]}, &encoded[0], 1, 1, 1, 3};
-    encode(one, encoding_);
+    encode(one, transform_);
     const auto fill_rows = [&](auto& all, const auto& pixel) {
         const auto first = all.begin() + static_cast<std::ptrdiff_t>(index_of(x, y));
         for (int i = 0; i < width; ++i) std::copy_n(pixel, 3, first + 3 * i);
@@ -139,7 +235,7 @@ void Film::store(int x, int y, int width, int height, ConstVec3Span intensity, i
                           static_cast<std::size_t>(height),
                           static_cast<std::size_t>(stride),
                           pitch};
-    if (pixels_ == PixelType::byte) return encode(rows, encoding_);
+    if (pixels_ == PixelType::byte) return encode(rows, transform_);
     for (std::size_t row = 0; row < rows.height; ++row) {
         const ConstVec3Span from = intensity.from(row * rows.stride);
         float* const to = &reals_[index_of(x, y) + row * pitch];
@@ -172,7 +268,7 @@ ImageView Film::view() const noexcept {
     return {.width = width_,
             .height = rows_.count(),
             .pixels = pixels_,
-            .encoding = encoding_,
+            .encoding = transform_.encoding,
             .bytes = bytes_,
             .reals = reals_};
 }

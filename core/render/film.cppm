@@ -26,14 +26,34 @@ struct RowRange {
     friend bool operator==(const RowRange&, const RowRange&) = default;
 };
 
-/// The picture being made, with pixels in the form of its file format: 8-bit, clamped and encoded, or 32-bit
-/// float, as computed.
+/// How intensities become the values of an 8-bit picture: exposed, then the tone curve, then clamped and
+/// encoded.
+struct DisplayTransform {
+    DisplayTransform() = default;
+    // NOLINTNEXTLINE(google-explicit-constructor): most pictures have only an encoding
+    CANDELA_EXPORT DisplayTransform(ColorEncoding color_encoding, float exposure_factor = 1,
+                                    ToneCurve curve = ToneCurve::none)
+        : encoding(color_encoding), exposure(exposure_factor), tone(curve) {}
+
+    ColorEncoding encoding = ColorEncoding::srgb;
+    float exposure = 1;
+    ToneCurve tone = ToneCurve::none;
+
+    friend bool operator==(const DisplayTransform&, const DisplayTransform&) = default;
+};
+
+/// An intensity as an 8-bit picture shows it: before clamping and encoding, and after it, 0 to 1.
+CANDELA_EXPORT Rgb toned(Rgb intensity, const DisplayTransform& transform) noexcept;
+CANDELA_EXPORT Rgb displayed(Rgb intensity, const DisplayTransform& transform) noexcept;
+
+/// The picture being made, with pixels in the form of its file format: 8-bit, as `transform` shows them, or
+/// 32-bit float, as computed.
 class CANDELA_EXPORT Film {
   public:
     /// Throws Error if memory is insufficient.
-    Film(int width, int height, PixelType pixels, ColorEncoding encoding);
+    Film(int width, int height, PixelType pixels, const DisplayTransform& transform);
     /// Only these rows of a picture of that size.
-    Film(int width, int height, PixelType pixels, ColorEncoding encoding, RowRange rows);
+    Film(int width, int height, PixelType pixels, const DisplayTransform& transform, RowRange rows);
 
     int width() const noexcept { return width_; }
     /// The height of the whole picture.
@@ -61,7 +81,7 @@ class CANDELA_EXPORT Film {
     int height_;
     RowRange rows_;
     PixelType pixels_;
-    ColorEncoding encoding_;
+    DisplayTransform transform_;
     AlignedVector<std::uint8_t> bytes_;
     AlignedVector<float> reals_;
 };

@@ -105,7 +105,7 @@ InspectedPixel inspect_pixel(const RenderScene& scene, int x, int y) {
 
     // Renders the whole tile by the pipeline itself, so that the pixel is the picture's by construction.
     InspectedPixel result;
-    Film film(width, height, PixelType::byte, scene.image.color_management, rows);
+    Film film(width, height, PixelType::byte, display_of(scene), rows);
     shade_tile(scene, visible, worker, film);
     const std::size_t at = 3 * (static_cast<std::size_t>(y - rows.first) * static_cast<std::size_t>(width) +
                                 static_cast<std::size_t>(x));

@@ -151,6 +151,10 @@ struct Renderer::Kept {
     }
 };
 
+DisplayTransform display_of(const RenderScene& scene) {
+    return {scene.image.color_management, exposure_factor(scene.observer.exposure), scene.image.tone};
+}
+
 Renderer::Renderer(Keep keep) : kept_(std::make_unique<Kept>(keep)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer& Renderer::operator=(Renderer&&) noexcept = default;

@@ -28,6 +28,9 @@ struct RenderOptions {
         progress{};  // tiles; called by any thread, possibly several at once
 };
 
+/// How 8-bit pictures show the scene.
+CANDELA_EXPORT DisplayTransform display_of(const RenderScene& scene);
+
 struct RenderStatistics {
     std::size_t triangles = 0;
     std::size_t pixels_shaded = 0;  // pixels that show an object

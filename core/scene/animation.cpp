@@ -304,7 +304,12 @@ class AnimationReader {
                 is_uncertain = true;
                 continue;
             }
-            if (const Parameter* const p = parameter_named(*plugin->schema, parts.back())) return *p;
+            if (const Parameter* const p = parameter_named(*plugin->schema, parts.back())) {
+                Parameter value = *p;
+                // The angles of the cone, on which a flux depends, may change as well.
+                if (value.notation == Notation::cone) value.notation = Notation::plain;
+                return value;
+            }
             known = names_in(*plugin->schema, std::move(known));
             // A model chosen on the command line need not have the parameters of the scene's own.
             if (key.kind == PluginKind::reflection && request_.reflection) is_uncertain = true;

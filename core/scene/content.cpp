@@ -2,9 +2,12 @@ module;
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 module candela.scene;
@@ -16,6 +19,15 @@ namespace candela {
 
 std::string Label::text() const {
     return name.empty() ? fmt::format("number {}", number) : fmt::format("'{}'", name);
+}
+
+float exposure_factor(float ev100) noexcept {
+    return ev100 == k_unexposed ? 1.0f : 1 / (1.2f * std::exp2(ev100));
+}
+
+std::string_view name_of(ToneCurve tone) noexcept {
+    return std::array<std::string_view, 5>{"none", "khronos-neutral", "aces", "agx",
+                                           "reinhard"}[static_cast<std::size_t>(tone)];
 }
 
 Observer fitted(Observer observer, int width, int height) {

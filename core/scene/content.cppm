@@ -5,6 +5,7 @@ module;
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,6 +58,14 @@ struct ShadowSettings {
     friend bool operator==(const ShadowSettings&, const ShadowSettings&) = default;
 };
 
+/// The exposure at which intensities are shown as they are: 1 cd/m^2 becomes 1.
+inline constexpr float k_unexposed = -0.2630344f;
+
+/// The factor of intensities for an exposure value at ISO 100: 1 / (1.2 * 2^EV), with which a surface whose
+/// luminance saturates a camera's sensor becomes 1 (ISO 12232; Lagarde, de Rousiers 2014, section 5.1); 1 for
+/// k_unexposed.
+CANDELA_EXPORT float exposure_factor(float ev100) noexcept;
+
 struct Observer {
     Vec3 position;
     Vec3 look_at;
@@ -67,15 +76,19 @@ struct Observer {
     /// The aspect ratio (width to height) of the frame that every picture shows completely; 0: none, and a
     /// narrow picture crops the sides.
     float frame_aspect = 0;
+    float exposure = k_unexposed;  // exposure value at ISO 100
     SourceLocation position_place{};
 
     /// Ignores positions in the file.
     friend inline bool operator==(const Observer& a, const Observer& b) {
         return a.position == b.position && a.look_at == b.look_at && a.up == b.up &&
                a.projection == b.projection && a.fov == b.fov && a.height == b.height &&
-               a.frame_aspect == b.frame_aspect;
+               a.frame_aspect == b.frame_aspect && a.exposure == b.exposure;
     }
 };
+
+/// As scenes name it: "khronos-neutral".
+CANDELA_EXPORT std::string_view name_of(ToneCurve tone) noexcept;
 
 /// The observer for a picture of that size: if it is narrower than the frame, it shows more above and below
 /// instead of less at the sides.
@@ -89,12 +102,13 @@ struct ImageSettings {
     std::string environment{};  // absolute path of an equirectangular environment map; empty: the background
     SourceLocation environment_place{};
     ColorEncoding color_management = ColorEncoding::srgb;
+    ToneCurve tone = ToneCurve::none;
 
     /// Ignores positions in the file.
     friend inline bool operator==(const ImageSettings& a, const ImageSettings& b) {
         return a.width == b.width && a.height == b.height && a.samples == b.samples &&
                a.background == b.background && a.environment == b.environment &&
-               a.color_management == b.color_management;
+               a.color_management == b.color_management && a.tone == b.tone;
     }
 };
 
@@ -132,6 +146,9 @@ struct LightSource {
     bool casts_shadows = true;
     AmbientOcclusion ambient_occlusion{};  // of its ambient part
     bool is_background = false;            // seen where there is no object, instead of ImageSettings' own
+    float temperature = 0;  // kelvin: its colour is multiplied by that of a black body; 0: it is not
+    /// The author's text for parameters of the model whose values follow from a unit or the temperature.
+    std::map<std::string, std::string> written{};
     SourceLocation place;
     SourceLocation position_place{};    // of its 'position', or of the whole light
     SourceLocation background_place{};  // of its 'background', or of the whole light
@@ -139,7 +156,8 @@ struct LightSource {
     /// Ignores positions in the file.
     friend inline bool operator==(const LightSource& a, const LightSource& b) {
         return a.label == b.label && a.model == b.model && a.casts_shadows == b.casts_shadows &&
-               a.ambient_occlusion == b.ambient_occlusion && a.is_background == b.is_background;
+               a.ambient_occlusion == b.ambient_occlusion && a.is_background == b.is_background &&
+               a.temperature == b.temperature;
     }
 };
 

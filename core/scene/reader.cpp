@@ -20,6 +20,7 @@ module candela.scene;
 import :fields;
 import :document;
 import :models;
+import :photometry;
 import :reading;
 import :tables;
 import :vocabulary;
@@ -219,6 +220,9 @@ class Reader {
         // Its position can be checked whatever else is wrong with it.
         if (!values || !values->is_valid("position")) return;
         light.model.parameters = std::move(values->set);
+        const PluginFile& plugin = *registry_.find(PluginKind::light, light.model.name);
+        if (values->are_valid()) apply_unit(table, plugin, light);
+        if (own.is_valid("temperature") && light.temperature > 0) apply_temperature(table, light);
         scene_.lights.push_back(std::move(light));
     }
 
@@ -232,6 +236,61 @@ class Reader {
             diagnostics_.warning(
                 scene_.image.environment_place,
                 fmt::format("'environment' has no effect: light {} is the background", background_light_));
+    }
+
+    /// Keeps the author's text of an intensity with a unit; in a cone, a flux makes more of it.
+    static void apply_unit(const TableNode& table, const PluginFile& plugin, LightSource& light) {
+        ParamSet& values = light.model.parameters;
+        const std::size_t index = values.index_of("intensity");
+        const TableNode::Entry* const entry = table.find("intensity");
+        const auto* const text = entry != nullptr ? std::get_if<std::string>(&entry->node.value) : nullptr;
+        if (text == nullptr || index == values.schema().size() ||
+            values.schema()[index].notation == Notation::plain)
+            return;
+        light.written["intensity"] = toml_text(*text);
+        if (notation_of(plugin.manifest, values.schema()[index]) != Notation::cone ||
+            !photometric_from(*text)->is_flux())
+            return;
+        const double factor = cone_factor(std::get<double>(values.get("inner_angle")),
+                                          std::get<double>(values.get("outer_angle")));
+        values.set(index, factor * std::get<double>(values.get("intensity")));
+    }
+
+    /// Multiplies the light's colour by that of a black body. Light that is too bright for a colour goes into
+    /// its intensity.
+    void apply_temperature(const TableNode& table, LightSource& light) {
+        const SourceLocation& place = table.find("temperature")->node.place;
+        if (light.temperature < k_lowest_temperature) {
+            diagnostics_.error(place,
+                               fmt::format("'temperature' is {} K; expected {} to {} K, or 0 for none",
+                                           light.temperature, k_lowest_temperature, k_highest_temperature));
+            return;
+        }
+        ParamSet& values = light.model.parameters;
+        const std::size_t color = values.index_of("color"), intensity = values.index_of("intensity");
+        const std::size_t none = values.schema().size();
+        if (color == none || intensity == none || values.schema()[color].type != ParamType::color ||
+            values.schema()[intensity].type != ParamType::real) {
+            diagnostics_.warning(place, fmt::format("'temperature' has no effect: light/{} has no color and "
+                                                    "intensity to multiply",
+                                                    light.model.name));
+            return;
+        }
+        const auto& own_color = std::get<Vec3>(*values.get(color));
+        const double own_intensity = std::get<double>(*values.get(intensity));
+        const ColorEncoding encoding = scene_.image.color_management;
+        const Rgb own = decoded(own_color, encoding), black = blackbody_color(light.temperature);
+        const Rgb tinted{own.r * black.r, own.g * black.g, own.b * black.b};
+        const float brightest = std::max({tinted.r, tinted.g, tinted.b});
+        if (!(brightest > 0)) return;
+        light.written.try_emplace("color", toml_text(own_color, ParamType::color));
+        light.written.try_emplace("intensity", toml_text(own_intensity));
+        const auto channel = [&](float x) {
+            const float share = x / brightest;
+            return 255 * (encoding == ColorEncoding::srgb ? linear_to_srgb(share) : share);
+        };
+        values.set(color, Vec3{channel(tinted.r), channel(tinted.g), channel(tinted.b)});
+        values.set(intensity, double{brightest} * own_intensity);
     }
 
     void warn_without_ambient(const TableNode& table, const LightSource& light) {

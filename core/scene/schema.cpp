@@ -12,6 +12,7 @@ module;
 module candela.scene;
 
 import :fields;
+import :photometry;
 import candela.api;
 import candela.plugins;
 
@@ -61,6 +62,15 @@ Table<Observer> observer() {
                    "and narrower pictures show less at the sides",
                    &Observer::frame_aspect)
                  .minimum(0)
+                 .omitted_by_default(),
+             field(Type::real, "exposure",
+                   "exposure value at ISO 100 of 8-bit pictures: intensities are divided by 1.2 * 2^EV; the "
+                   "default "
+                   "leaves them as they are (docs/user/light.md)",
+                   &Observer::exposure)
+                 .unit("EV")
+                 .range(-24, 24)
+                 .notation(Notation::exposure)
                  .omitted_by_default()}};
 }
 
@@ -80,7 +90,11 @@ Table<ImageSettings> image() {
          choice({"srgb", "none"}, "color_management",
                 "\"srgb\": colours are decoded, light is added up linearly, 8-bit pictures are encoded "
                 "again; \"none\": values are used as they are",
-                &ImageSettings::color_management)}};
+                &ImageSettings::color_management),
+         choice({"none", "khronos-neutral", "aces", "agx", "reinhard"}, "tone",
+                "the tone curve of 8-bit pictures, after exposure: none clamps what is brighter than white",
+                &ImageSettings::tone)
+             .omitted_by_default()}};
 }
 
 Table<ConstraintSettings> constraints() {
@@ -131,6 +145,14 @@ Table<LightSource> light() {
         {field(Type::text, "name", k_name, &LightSource::label, &Label::name).omitted_by_default(),
          field(Type::text, "type", "light plugin; its parameters follow", &LightSource::model, &Model::name)
              .required(),
+         field(
+             Type::real, "temperature",
+             "colour temperature: the colour is multiplied by that of a black body, with the same luminance; "
+             "0: it is not",
+             &LightSource::temperature)
+             .unit("K")
+             .range(0, k_highest_temperature)
+             .omitted_by_default(),
          field(Type::boolean, "casts_shadows", "whether objects block this light; only with [shadows]",
                &LightSource::casts_shadows)
              .omitted_by_default(),

@@ -21,6 +21,7 @@ module;
 
 module candela.scene;
 
+import :notations;
 import :text;
 import candela.api;
 import candela.plugins;
@@ -235,6 +236,7 @@ bool is_written_as_list(const Node& node, const Diagnostics& diagnostics) {
 
 /// `node` as a value of the parameter's type, without checking its range. Reports a type mismatch.
 std::optional<Value> typed_value(const Node& node, const Parameter& parameter, Diagnostics& diagnostics) {
+    if (is_notation(node, parameter)) return noted_number(node, parameter, diagnostics);
     auto value = as_value(node, parameter);
     if (!value) {
         diagnostics.error(node.place,

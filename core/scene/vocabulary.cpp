@@ -35,6 +35,7 @@ constexpr std::string_view k_no_bumps = "textures are for colours and for parame
 constexpr std::string_view k_parameter_texture =
     "write a table in [object.material], such as roughness = { texture = \"r.png\" }";
 constexpr std::string_view k_shape_size = "an object's size is its 'scale'";
+constexpr std::string_view k_camera_settings = "write exposure = { aperture = 8, time = 0.008, iso = 200 }";
 constexpr std::string_view k_cone = "write inner_angle and outer_angle, half-angles in degrees";
 
 constexpr auto k_words = std::to_array<Word>({
@@ -116,6 +117,12 @@ constexpr auto k_words = std::to_array<Word>({
     {"observer", "type", "projection"},
     {"observer", "aspect", "the picture's width and height, in [image], determine that"},
     {"observer", "aspect_ratio", "the picture's width and height, in [image], determine that"},
+    {"observer", "ev", "exposure"},
+    {"observer", "ev100", "exposure"},
+    {"observer", "aperture", k_camera_settings},
+    {"observer", "f_number", k_camera_settings},
+    {"observer", "shutter", k_camera_settings},
+    {"observer", "iso", k_camera_settings},
     {"observer", "near", "nothing is too near or too far to be drawn"},
     {"observer", "far", "nothing is too near or too far to be drawn"},
     {"image", "size", k_size},
@@ -141,6 +148,13 @@ constexpr auto k_words = std::to_array<Word>({
     {"image", "hdri", "environment"},
     {"image", "gamma", "color_management"},
     {"image", "color_space", "color_management"},
+    {"image", "tone_map", "tone"},
+    {"image", "tonemap", "tone"},
+    {"image", "tone_mapping", "tone"},
+    {"image", "tonemapping", "tone"},
+    {"image", "tone_curve", "tone"},
+    {"image", "tonemapper", "tone"},
+    {"image", "ev", "[observer] has 'exposure'"},
     {"image", "file", k_name_of_image},
     {"image", "filename", k_name_of_image},
     {"image", "format", k_name_of_image},
@@ -158,6 +172,14 @@ constexpr auto k_words = std::to_array<Word>({
     {"light", "cutoff", k_cone},
     {"light", "angle", k_cone},
     {"light", "cone_angle", k_cone},
+    {"light", "kelvin", "temperature"},
+    {"light", "color_temperature", "temperature"},
+    {"light", "colour_temperature", "temperature"},
+    {"light", "lumens", "write intensity = \"800 lm\""},
+    {"light", "lumen", "write intensity = \"800 lm\""},
+    {"light", "lux", "write intensity = \"5 klx\""},
+    {"light", "candela", "write intensity = \"1200 cd\""},
+    {"light", "watts", "write intensity = \"60 W\""},
     {"light", "decay", "attenuation"},
     {"light", "kind", "type"},
     {"object", "pos", "position"},

@@ -88,16 +88,16 @@ class Writer {
         entries_.clear();
     }
 
+    /// `written`: the author's text for some of them.
     void add_parameters(const ParamSet& values, const std::string& where,
-                        const std::vector<ParameterTexture>& textures = {}) {
+                        const std::map<std::string, std::string>& written = {}) {
         for (std::size_t i = 0; i < values.schema().size(); ++i) {
             const Parameter& p = values.schema()[i];
-            const auto texture = std::ranges::find(textures, p.name, &ParameterTexture::parameter);
-            if (texture != textures.end()) {
-                add(p.name, texture_text(*texture));
+            const std::optional<Value>& value = values.get(i);
+            if (const auto text = written.find(p.name); text != written.end()) {
+                add(p.name, text->second);
                 continue;
             }
-            const std::optional<Value>& value = values.get(i);
             if (!value) cannot_say(fmt::format("{}: '{}' has no value", where, p.name));
             // An optional file without a value is omitted.
             const auto* const file = p.type == ParamType::file ? std::get_if<std::string>(&*value) : nullptr;
@@ -173,7 +173,7 @@ class Writer {
         require_index(light.label, index);
         begin(own_tables().light.about());
         for (const Field<LightSource>& field : own_tables().light.fields()) add(field, light);
-        add_parameters(light.model.parameters, light.label.text());
+        add_parameters(light.model.parameters, light.label.text(), light.written);
         end();
     }
 
@@ -190,7 +190,10 @@ class Writer {
         end();
         if (object.reflection.parameters.schema().empty()) return;
         text_ += "[object.material]\n";
-        add_parameters(object.reflection.parameters, object.label.text(), object.textures);
+        std::map<std::string, std::string> textures;
+        for (const ParameterTexture& texture : object.textures)
+            textures.emplace(texture.parameter, texture_text(texture));
+        add_parameters(object.reflection.parameters, object.label.text(), textures);
         end();
     }
 

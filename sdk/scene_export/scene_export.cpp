@@ -119,7 +119,16 @@ class Exporter {
                            .samples = to_.samples,
                            .background = image.background,
                            .environment = to_.environment.c_str(),
-                           .color_management = image.color_management};
+                           .color_management = image.color_management,
+                           .exposure = exposure_factor(scene_.observer.exposure),
+                           .tone = image.tone};
+        const bool is_exposed = to_.scene.image.exposure != 1;
+        if ((is_exposed || image.tone != ToneCurve::none) && !request_.abilities.display)
+            throw Error(ErrorCategory::failure,
+                        fmt::format("{}: what this target makes shows intensities as they are; {}",
+                                    is_exposed ? "[observer] exposure" : "[image] tone",
+                                    is_exposed ? "set the lights' intensities instead"
+                                               : "--tone none leaves it out"));
         if (scene_.shadows.enabled && !request_.abilities.shadows)
             throw Error(ErrorCategory::failure,
                         "[shadows]: objects cast no shadows in what this target makes; --no-shadows leaves "

@@ -181,7 +181,7 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     if (is_textured) parts.texture = candela_target_texture + std::string(texture_kernel()) + "\n";
     parts.screen = candela_target_screen;
     parts.accumulate = candela_target_accumulate;
-    parts.encode = candela_target_encode;
+    parts.encode = "#define KERNEL\n" + std::string(tone_kernel()) + "\n" + candela_target_encode;
 
     std::string users = parts.lights + parts.vertex + parts.fragment;
     for (const auto* texts : {&parts.reflections, &parts.shadings}) {

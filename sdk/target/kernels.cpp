@@ -16,6 +16,7 @@
 
 CANDELA_EMBED(candela_target_prelude, CANDELA_TARGET_PRELUDE);
 CANDELA_EMBED(candela_target_tables, CANDELA_TARGET_TABLES);
+CANDELA_EMBED(candela_target_tone, CANDELA_TARGET_TONE);
 
 namespace candela::target {
 
@@ -113,6 +114,7 @@ std::vector<Paragraph> paragraphs_of(const std::string& text) {
 std::string without_comments(std::string_view text) { return kernel_language::without_comments(text); }
 
 std::string_view kernel_prelude() { return candela_target_prelude; }
+std::string_view tone_kernel() { return candela_target_tone; }
 std::string_view glsl_tables() { return candela_target_tables; }
 
 bool has_parameters(const ExportedModel& model) {

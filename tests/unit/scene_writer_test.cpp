@@ -178,6 +178,8 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.observer.fov += 1; },
         [](Scene& s) { s.observer.height += 1; },
         [](Scene& s) { s.observer.frame_aspect = 1.5f; },
+        [](Scene& s) { s.observer.exposure = 12; },
+        [](Scene& s) { s.image.tone = candela::ToneCurve::agx; },
         [](Scene& s) { s.image.width += 1; },
         [](Scene& s) { s.image.height += 1; },
         [](Scene& s) { s.image.samples = 4; },

@@ -35,7 +35,7 @@ class KeepingRenderer {
         if (compiled_ == nullptr) build(request_);  // the latest change was rejected
         const ImageSettings& image = compiled_->image;
         Film film(image.width, image.height, floats ? PixelType::real : PixelType::byte,
-                  image.color_management);
+                  display_of(*compiled_));
         renderer_.render(*compiled_, film, {.threads = threads_});
         return film;
     }

@@ -67,7 +67,7 @@ py::array rendered(const ReadScene& scene, bool floats) {
         const py::gil_scoped_release unlocked;
         const ImageSettings& image = scene.compiled().image;
         film.emplace(image.width, image.height, floats ? PixelType::real : PixelType::byte,
-                     image.color_management);
+                     display_of(scene.compiled()));
         render(scene.compiled(), *film, {.threads = scene.threads()});
     }
     return array_of(*std::move(film));

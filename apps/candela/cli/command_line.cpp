@@ -205,6 +205,10 @@ void add_scene_options(CommandLine& line) {
         "width", po::value<std::string>()->value_name("N"), "pixels from left to right")(
         "height", po::value<std::string>()->value_name("N"), "pixels from top to bottom")(
         "samples", po::value<std::string>()->value_name("N"), "samples per pixel: 1, 4, 8 or 16")(
+        "exposure", po::value<std::string>()->value_name("EV"),
+        "exposure value at ISO 100, such as 12; overrides the scene")(
+        "tone", po::value<std::string>()->value_name("CURVE"),
+        "tone curve: none, khronos-neutral, aces, agx or reinhard; overrides the scene")(
         "set", po::value<std::vector<std::string>>()->value_name("PATH=VALUE"),
         "override one value, such as light.lamp.intensity=3 or object.0.color=[255,0,0]; can be repeated")(
         "shadows", "let objects block light; overrides the scene")(
@@ -283,6 +287,9 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
         request.settings.push_back(
             {fmt::format("--{}", flag), fmt::format("image.{}", flag), line.get<std::string>(flag)});
     }
+    if (line.has("exposure"))
+        request.settings.push_back({"--exposure", "observer.exposure", line.get<std::string>("exposure")});
+    if (line.has("tone")) request.settings.push_back({"--tone", "image.tone", line.get<std::string>("tone")});
     if (line.has("shadows") && line.has("no-shadows"))
         throw Error(ErrorCategory::bad_request, "--shadows and --no-shadows contradict each other");
     for (const bool enabled : {true, false}) {
@@ -306,7 +313,8 @@ std::vector<std::string> scene_words_from(const CommandLine& line) {
     std::vector<std::string> words;
     for (const std::string& file : line.all("scene"))
         words.push_back(file.starts_with('-') ? "./" + file : file);
-    for (const char* const option : {"shading", "reflection", "width", "height", "samples"})
+    for (const char* const option :
+         {"shading", "reflection", "width", "height", "samples", "exposure", "tone"})
         if (line.has(option)) words.push_back(fmt::format("--{}={}", option, line.get<std::string>(option)));
     for (const char* const option : {"set", "plugin-dir"})
         for (const std::string& value : line.all(option))

@@ -74,10 +74,10 @@ class FrameRenderer {
 
   private:
     candela::Film& film_for(const candela::RenderScene& scene) {
-        const candela::ImageSettings& image = scene.image;
-        if (!film_ || encoding_ != image.color_management) {
-            film_.emplace(image.width, image.height, format_.pixels, image.color_management);
-            encoding_ = image.color_management;
+        const candela::DisplayTransform transform = candela::display_of(scene);
+        if (!film_ || transform_ != transform) {
+            film_.emplace(scene.image.width, scene.image.height, format_.pixels, transform);
+            transform_ = transform;
         }
         return *film_;
     }
@@ -97,7 +97,7 @@ class FrameRenderer {
     InputFingerprints fingerprints_;
     FrameWriter writer_;
     std::optional<candela::Film> film_;
-    candela::ColorEncoding encoding_ = candela::ColorEncoding::srgb;
+    candela::DisplayTransform transform_;
     std::set<std::string> said_;
 };
 

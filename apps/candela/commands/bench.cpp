@@ -126,7 +126,7 @@ int run_bench(const std::vector<std::string>& arguments) {
     if (!scene) return static_cast<int>(exit_code_of(diagnostics));
 
     const candela::ImageSettings& image = scene->image;
-    candela::Film film(image.width, image.height, candela::PixelType::byte, image.color_management);
+    candela::Film film(image.width, image.height, candela::PixelType::byte, candela::display_of(*scene));
     candela::RenderStatistics statistics;
     const Times times = measure(*scene, plan, film, statistics);
     const double frame = median_of(times.frame);

@@ -186,7 +186,7 @@ class PaneRenderer {
         if (term != variants.end() && term->value != "picture")
             return TermRenderer(*compiled, 0).image(one_term(term->value, draft->scene), pixels_);
         candela::Film film(compiled->image.width, compiled->image.height, pixels_,
-                           compiled->image.color_management);
+                           candela::display_of(*compiled));
         const auto statistics = candela::render(*compiled, film, {});
         const std::string darkness = candela::darkness_diagnosis(*compiled, film, statistics);
         if (!darkness.empty()) warn(fmt::format("nothing in the picture '{}' is lit: {}", label, darkness));

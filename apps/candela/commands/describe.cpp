@@ -103,7 +103,7 @@ void print(const candela::PluginFile& file, const std::string& id) {
     if (!m.author.empty()) std::cout << "\nAuthor\n" << indented(m.author);
     if (!m.license.empty()) std::cout << "\nLicense\n" << indented(m.license);
     if (!m.parameters.empty()) std::cout << "\nParameters\n";
-    for (const candela::Parameter& p : m.parameters) {
+    for (const candela::Parameter& p : *file.schema) {
         std::cout << row(line(p.name), line(what_is_allowed(p)), k_names)
                   << row("", line(p.meaning), k_names);
     }

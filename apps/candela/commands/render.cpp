@@ -21,6 +21,7 @@
 #include "console/reporting.h"
 #include "console/stopwatch.h"
 #include "console/terminal.h"
+#include "render/clipping.h"
 #include "render/darkness_diagnosis.h"
 #include "sandbox/temporary_folder.h"
 
@@ -112,7 +113,7 @@ int render_image(const CommandLine& line) {
         return render_by_rows(line, *compiled, format, existing, registry, total);
     std::optional<candela::Film> made;
     try {
-        made.emplace(image.width, image.height, format.pixels, image.color_management);
+        made.emplace(image.width, image.height, format.pixels, candela::display_of(*compiled));
     } catch (const Error& problem) {
         candela::Diagnostics too_large;
         too_large.failure(draft->image_place, problem.what());
@@ -130,6 +131,8 @@ int render_image(const CommandLine& line) {
     }
     const std::string darkness = candela::darkness_diagnosis(*compiled, film, statistics);
     if (!darkness.empty()) warn("nothing in the picture is lit: " + darkness);
+    const std::string clipping = candela::clipping_diagnosis(*compiled, film, statistics);
+    if (!clipping.empty()) warn(clipping);
     const bool is_verbose = line.has("verbose");
     const Stopwatch writing;
     TermRenderer term_renderer(*compiled, threads);

@@ -25,6 +25,7 @@
 #include "verify/targets.h"
 #include "verify/work_dir.h"
 
+import candela.api;
 import candela.util;
 
 namespace po = boost::program_options;
@@ -72,7 +73,7 @@ verify::Limits limits_from(const CommandLine& line) {
 verify::Expectation expectation_of(candela::RenderScene& scene, double tolerance, const fs::path& folder,
                                    candela::Registry& registry) {
     const candela::ImageSettings& image = scene.image;
-    candela::Film film(image.width, image.height, candela::PixelType::byte, image.color_management);
+    candela::Film film(image.width, image.height, candela::PixelType::byte, candela::display_of(scene));
     candela::render(scene, film, {});
     const auto png = candela::format_of("reference.png", registry);
     candela::write_image(film, png, folder / "reference.png", registry);
@@ -83,7 +84,10 @@ verify::Expectation expectation_of(candela::RenderScene& scene, double tolerance
         .levels = verify::unrounded_image(scene),
         .sensitivity = verify::sensitivity_of(scene, film, verify::edge_levels(tolerance)),
         .shown = {}};
-    const std::array<float, 3> background{image.background.x, image.background.y, image.background.z};
+    const candela::DisplayTransform transform = candela::display_of(scene);
+    const candela::Rgb shown = candela::displayed(
+        1 / transform.exposure * candela::decoded(image.background, transform.encoding), transform);
+    const std::array<float, 3> background{255 * shown.r, 255 * shown.g, 255 * shown.b};
     result.shown.resize(result.levels.size() / 3);
     for (std::size_t i = 0; i < result.levels.size(); ++i) {
         constexpr float k_rounding = 0.01f;

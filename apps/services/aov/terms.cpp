@@ -150,8 +150,8 @@ struct Planes {
         }
     }
 
-    Film film(candela::PixelType pixels, candela::ColorEncoding encoding) const {
-        Film result(width, height, pixels, encoding);
+    Film film(candela::PixelType pixels, const candela::DisplayTransform& transform) const {
+        Film result(width, height, pixels, transform);
         result.store(0, 0, width, height, {channel[0].data(), channel[1].data(), channel[2].data()}, width);
         return result;
     }
@@ -286,7 +286,7 @@ Film TermRenderer::image(const NamedTerm& term, candela::PixelType pixels) {
     Film film = values(term);
     if (pixels == candela::PixelType::real) return film;
     Planes planes(film);
-    if (is_intensity(term.term)) return planes.film(pixels, scene_.image.color_management);
+    if (is_intensity(term.term)) return planes.film(pixels, candela::display_of(scene_));
     if (facing_.empty()) facing_ = std::move(Planes(values({"facing", Term::facing})).channel[0]);
     map_to_colors(term.term, planes, facing_);
     return planes.film(pixels, candela::ColorEncoding::none);

@@ -140,12 +140,12 @@ Json json_of(const Explanation& e, const InspectedFragment& fragment) {
 std::string explanation_json(const Explanation& e, JsonLayout layout) {
     Json fragments = Json::array();
     for (const InspectedFragment& fragment : e.pixel.fragments) fragments.push_back(json_of(e, fragment));
-    const bool is_srgb = e.compiled.image.color_management == candela::ColorEncoding::srgb;
-    Json encoded = Json::array();
-    for (const float channel : {e.pixel.intensity.x, e.pixel.intensity.y, e.pixel.intensity.z}) {
-        const float clamped = std::clamp(channel, 0.0f, 1.0f);
-        encoded.push_back(is_srgb ? candela::linear_to_srgb(clamped) : clamped);
-    }
+    const candela::DisplayTransform transform = candela::display_of(e.compiled);
+    const bool is_srgb = transform.encoding == candela::ColorEncoding::srgb;
+    const candela::Rgb intensity{e.pixel.intensity.x, e.pixel.intensity.y, e.pixel.intensity.z};
+    const candela::Rgb toned = candela::toned(intensity, transform);
+    const candela::Rgb shown = candela::displayed(intensity, transform);
+    const Json encoded = {shown.r, shown.g, shown.b};
     Json result = {{"pixel", {e.x, e.y}},
                    {"width", e.compiled.image.width},
                    {"height", e.compiled.image.height},
@@ -156,6 +156,11 @@ std::string explanation_json(const Explanation& e, JsonLayout layout) {
                    {"color_management", is_srgb ? "srgb" : "none"},
                    {"encoded", std::move(encoded)},
                    {"bytes", e.pixel.bytes}};
+    if (transform != candela::DisplayTransform(transform.encoding)) {
+        result["exposure"] = transform.exposure;
+        result["tone"] = candela::name_of(transform.tone);
+        result["toned"] = {toned.r, toned.g, toned.b};
+    }
     const auto difference = e.kernel_difference();
     result["kernel_difference"] = difference ? Json(*difference) : Json();
     if (!e.why_no_steps().empty()) result["note"] = e.why_no_steps();

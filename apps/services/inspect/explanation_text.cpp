@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "inspect/explanation.h"
 
@@ -139,6 +140,7 @@ class Writer {
         line(2,
              fmt::format("light {}, {}{}", source.label.text(), candela::shown_model_name(source.model.name),
                          light.sample > 0 ? fmt::format(", sample {}", light.sample) : ""));
+        write_photometry(source);
         if (is_ambient) {
             write_visibility(light);
             value(3, "arriving", light.diffuse);
@@ -162,6 +164,20 @@ class Writer {
         if (is_ambient) return value(3, "I_a", light.reflected_ambient);
         value(3, "I_d", light.reflected_diffuse);
         value(3, "I_s", light.reflected_specular);
+    }
+
+    /// The values that the author wrote for a light's intensity and temperature, and the number that they
+    /// make.
+    void write_photometry(const candela::LightSource& source) {
+        const auto written = source.written.find("intensity");
+        if (written == source.written.end()) return;
+        const double intensity = std::get<double>(source.model.parameters.get("intensity"));
+        const std::string scale = source.temperature > 0
+                                      ? fmt::format(" at {} K, for its brightest channel", source.temperature)
+                                      : "";
+        const bool has_unit = written->second.starts_with('"');
+        line(3, fmt::format("intensity = {}{} is {:.6g}{}", written->second, scale, intensity,
+                            has_unit ? ": candela or lux over pi, at 683 lm/W" : ""));
     }
 
     /// How much of the light is not blocked, and by what it is.
@@ -202,16 +218,25 @@ class Writer {
 
     void write_encoding() {
         const Vec3 i = e_.pixel.intensity;
-        const bool is_srgb = e_.compiled.image.color_management == candela::ColorEncoding::srgb;
-        const std::array<float, 3> channels{i.x, i.y, i.z};
+        const candela::DisplayTransform transform = candela::display_of(e_.compiled);
+        const bool is_srgb = transform.encoding == candela::ColorEncoding::srgb;
+        const candela::Rgb shown = candela::toned({i.x, i.y, i.z}, transform);
+        const std::array<float, 3> intensities{i.x, i.y, i.z}, channels{shown.r, shown.g, shown.b};
+        const bool has_tone = transform.tone != candela::ToneCurve::none;
         constexpr std::array<const char*, 3> k_names{"red", "green", "blue"};
         for (std::size_t c = 0; c < 3; ++c) {
             const float clamped = std::clamp(channels[c], 0.0f, 1.0f);
             const float encoded = is_srgb ? candela::linear_to_srgb(clamped) : clamped;
-            line(0,
-                 fmt::format("{}: I = {:.6g}{}, {}{:.6g}, x 255 = {:.2f}, byte {}", k_names[c], channels[c],
-                             clamped != channels[c] ? fmt::format(", clamped to {:g}", clamped) : "",
-                             is_srgb ? "sRGB " : "not encoded ", encoded, 255 * encoded, e_.pixel.bytes[c]));
+            std::string steps;
+            if (transform.exposure != 1)
+                steps += fmt::format(", exposed x {:.6g} = {:.6g}", transform.exposure,
+                                     transform.exposure * intensities[c]);
+            if (has_tone)
+                steps += fmt::format(", tone {} {:.6g}", candela::name_of(transform.tone), channels[c]);
+            line(0, fmt::format(
+                        "{}: I = {:.6g}{}{}, {}{:.6g}, x 255 = {:.2f}, byte {}", k_names[c], intensities[c],
+                        steps, clamped != channels[c] ? fmt::format(", clamped to {:g}", clamped) : "",
+                        is_srgb ? "sRGB " : "not encoded ", encoded, 255 * encoded, e_.pixel.bytes[c]));
         }
     }
 

@@ -137,10 +137,12 @@ std::string factor_text(float factor) {
 }
 
 /// The smallest intensity that is visible in 8 bits.
-float darkest_visible(const Film& film) {
+float darkest_visible(const RenderScene& scene, const Film& film) {
     if (film.view().pixels == PixelType::real) return 0;
     constexpr float k_half_a_step = 0.5f / 255;
-    return film.view().encoding == ColorEncoding::srgb ? srgb_to_linear(k_half_a_step) : k_half_a_step;
+    const float shown =
+        film.view().encoding == ColorEncoding::srgb ? srgb_to_linear(k_half_a_step) : k_half_a_step;
+    return shown / exposure_factor(scene.observer.exposure);
 }
 
 }  // namespace
@@ -148,7 +150,7 @@ float darkest_visible(const Film& film) {
 std::string darkness_diagnosis(const RenderScene& scene, const Film& film,
                                const RenderStatistics& statistics) {
     if (scene.objects.empty() || scene.lights.empty()) return {};
-    const float visible = darkest_visible(film);
+    const float visible = darkest_visible(scene, film);
     if (statistics.pixels_shaded > 0 && statistics.brightest > visible) return {};
     const Camera camera = camera_of(scene.observer, film.width(), film.height());
     if (statistics.pixels_shaded == 0) return unseen(scene, camera);
@@ -163,6 +165,12 @@ std::string darkness_diagnosis(const RenderScene& scene, const Film& film,
             "colours, ka, kd and ks",
             arriving, statistics.brightest);
     }
+    const float exposure = exposure_factor(scene.observer.exposure);
+    if (exposure != 1)
+        return fmt::format(
+            "the brightest point has intensity {:.2g}, and at this exposure a pixel below {:.2g} is black; "
+            "with [observer] exposure = {:.1f} or less, that point is as bright as the display",
+            statistics.brightest, visible, std::floor(10 * std::log2(statistics.brightest / 1.2f)) / 10);
     return fmt::format(
         "the brightest point has intensity {:.2g}, and a pixel below {:.2g} is black; multiply the lights' "
         "intensity by {} or more, or move them nearer",

@@ -51,7 +51,7 @@ void RenderedRows::render_band(int first) {
     const ImageSettings& image = scene_.image;
     const int end = std::min(first / k_rows_of_tiles * k_rows_of_tiles + rows_per_band_, rows_.end);
     band_.reset();  // frees memory before more is allocated
-    band_.emplace(image.width, image.height, pixels_, image.color_management, RowRange{first, end});
+    band_.emplace(image.width, image.height, pixels_, display_of(scene_), RowRange{first, end});
     RenderOptions options = options_;
     if (options_.progress) {
         options.progress = [&](std::size_t done, std::size_t all) {

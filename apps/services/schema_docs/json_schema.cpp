@@ -144,7 +144,7 @@ Json merged(const std::vector<User>& users) {
 
 class SchemaWriter {
   public:
-    explicit SchemaWriter(std::span<const Manifest> installed) : installed_(installed) {}
+    explicit SchemaWriter(std::span<const Manifest> installed) : installed_(with_notations(installed)) {}
 
     Json write() {
         Json root{
@@ -351,7 +351,7 @@ class SchemaWriter {
         return schema;
     }
 
-    std::span<const Manifest> installed_;
+    std::vector<Manifest> installed_;
     Json definitions_ = Json::object();
 };
 

@@ -3,8 +3,10 @@ module;
 #include <fmt/format.h>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 module candela.schema;
 
@@ -22,6 +24,14 @@ std::optional<std::string> default_text(const Parameter& p) {
         return fmt::format("{}", v->x);
     }
     return text_of(*p.default_value);
+}
+
+std::vector<Manifest> with_notations(std::span<const Manifest> manifests) {
+    std::vector<Manifest> noted(manifests.begin(), manifests.end());
+    for (Manifest& manifest : noted)
+        for (Parameter& parameter : manifest.parameters)
+            parameter.notation = notation_of(manifest, parameter);
+    return noted;
 }
 
 std::string unit_word(const Parameter& p) {

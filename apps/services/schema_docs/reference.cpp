@@ -93,7 +93,7 @@ std::string link_to(const Manifest& m) {
 
 class ReferenceWriter {
   public:
-    explicit ReferenceWriter(std::span<const Manifest> installed) : installed_(installed) {}
+    explicit ReferenceWriter(std::span<const Manifest> installed) : installed_(with_notations(installed)) {}
 
     std::string write() {
         text_ = k_introduction;
@@ -317,7 +317,7 @@ class ReferenceWriter {
         }
     }
 
-    std::span<const Manifest> installed_;
+    std::vector<Manifest> installed_;
     std::string text_;
 };
 

@@ -5,6 +5,7 @@ module;
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 export module candela.schema;
 
@@ -31,6 +32,9 @@ std::optional<std::string> default_text(const Parameter& parameter);
 
 /// A JSON Schema, as text, for the parameter's type and range.
 std::string value_schema(const Parameter& parameter);
+
+/// Manifests whose parameters say how they may be written.
+std::vector<Manifest> with_notations(std::span<const Manifest> manifests);
 
 /// "metres" for "m", "degrees" for "deg"; other units unchanged.
 std::string unit_word(const Parameter& parameter);

@@ -46,9 +46,40 @@ void put_three(Json& schema, Json each) {
     schema["maxItems"] = 3;
 }
 
+/// Allows other notations than a plain number.
+void put_notation(Json& schema, const Parameter& p) {
+    constexpr const char* k_number = R"([-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?)";
+    const auto of_setting = [](const char* meaning) {
+        return Json{{"type", "number"}, {"exclusiveMinimum", 0}, {"description", meaning}};
+    };
+    switch (p.notation) {
+        case Notation::plain:
+            return;
+        case Notation::exposure:
+            schema["type"] = {"number", "string", "object"};
+            schema["pattern"] = fmt::format("^ *(EV(100)?)? *{} *$", k_number);
+            schema["properties"] = {{"aperture", of_setting("the f-number")},
+                                    {"time", of_setting("the shutter time in seconds")},
+                                    {"iso", of_setting("the sensor's speed; default: 100")}};
+            schema["required"] = {"aperture", "time"};
+            schema["additionalProperties"] = false;
+            return;
+        case Notation::intensity:
+        case Notation::cone:
+            schema["type"] = {"number", "string"};
+            schema["pattern"] = fmt::format("^ *{} *[mkM]?(lm|cd|W) *$", k_number);
+            return;
+        case Notation::illuminance:
+            schema["type"] = {"number", "string"};
+            schema["pattern"] = fmt::format("^ *{} *[mkM]?lx *$", k_number);
+            return;
+    }
+}
+
 Json real_schema(const Parameter& p) {
     Json schema{{"type", "number"}};
     put_real_range(schema, p);
+    put_notation(schema, p);
     return schema;
 }
 

@@ -169,26 +169,30 @@ class Mover {
     std::vector<bool> has_penumbras_;  // whose samples vary, so that they remain data
 };
 
-/// The value in a picture's file, 0 to 255, before rounding.
-float level_of(float intensity, candela::ColorEncoding encoding) {
-    const float x = std::clamp(intensity, 0.0f, 1.0f);
-    return 255 * (encoding == candela::ColorEncoding::srgb ? candela::linear_to_srgb(x) : x);
+/// The values in a picture's file, 0 to 255, before rounding.
+Intensities levels_of(const Intensities& intensities, const candela::DisplayTransform& transform) {
+    Intensities levels;
+    levels.reserve(intensities.size());
+    for (std::size_t i = 0; i + 2 < intensities.size(); i += 3) {
+        const candela::Rgb shown =
+            candela::displayed({intensities[i], intensities[i + 1], intensities[i + 2]}, transform);
+        for (const float channel : {shown.r, shown.g, shown.b}) levels.push_back(255 * channel);
+    }
+    return levels;
 }
 
 }  // namespace
 
 std::vector<float> unrounded_image(const candela::RenderScene& scene) {
-    const auto encoding = scene.image.color_management;
-    candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real, encoding);
+    const candela::DisplayTransform transform = candela::display_of(scene);
+    candela::Film film(scene.image.width, scene.image.height, candela::PixelType::real, transform);
     candela::render(scene, film, {});
-    std::vector<float> levels(film.view().reals.begin(), film.view().reals.end());
-    for (float& x : levels) x = level_of(x, encoding);
-    return levels;
+    return levels_of({film.view().reals.begin(), film.view().reals.end()}, transform);
 }
 
 Sensitivity sensitivity_of(candela::RenderScene& scene, const candela::Film& reference, float levels) {
     const auto pattern = candela::sample_pattern(scene.image.samples);
-    const auto encoding = scene.image.color_management;
+    const candela::DisplayTransform transform = candela::display_of(scene);
     const auto expected = reference.view().bytes;
     const float share = 1 / static_cast<float>(pattern.size());
     std::vector<float> change(expected.size()), mean(expected.size());
@@ -200,11 +204,18 @@ Sensitivity sensitivity_of(candela::RenderScene& scene, const candela::Film& ref
     for (const candela::SamplePosition& sample : pattern) {
         const float x = static_cast<float>(sample.x) / 16, y = static_cast<float>(sample.y) / 16;
         const Intensities there = mover.seen_at(x, y);
+        const Intensities levels_there = levels_of(there, transform);
         std::vector<float> largest(there.size());
-        const auto note = [&](const Intensities& other, std::size_t i) {
-            if (other[i] == there[i]) return;
-            const float change = std::abs(level_of(other[i], encoding) - level_of(there[i], encoding));
-            largest[i] = std::max(largest[i], change);
+        const auto note = [&](const Intensities& other) {
+            for (std::size_t i = 0; i < there.size(); i += 3) {
+                if (std::equal(&other[i], &other[i] + 3, &there[i])) continue;
+                const candela::Rgb shown =
+                    candela::displayed({other[i], other[i + 1], other[i + 2]}, transform);
+                const std::array<float, 3> channels{shown.r, shown.g, shown.b};
+                for (std::size_t c = 0; c < 3; ++c)
+                    largest[i + c] =
+                        std::max(largest[i + c], std::abs(255 * channels[c] - levels_there[i + c]));
+            }
         };
         for (const float dx : {-k_shift, k_shift}) {
             for (const float dy : {-k_shift, k_shift}) {
@@ -214,23 +225,17 @@ Sensitivity sensitivity_of(candela::RenderScene& scene, const candela::Film& ref
                 for (std::size_t i = 0; i < there.size(); ++i) {
                     mean_x[i] += 0.5f * share * nearby[i];
                     mean_y[i] += 0.5f * share * nearby[i];
-                    note(nearby, i);
                 }
+                note(nearby);
             }
         }
         // A sliver may lie within that distance.
         for (const float near : {k_shift / 2, k_shift / 4}) {
             for (const float dx : {-near, near}) {
-                for (const float dy : {-near, near}) {
-                    const Intensities nearby = mover.seen_at(x + dx, y + dy);
-                    for (std::size_t i = 0; i < there.size(); ++i) note(nearby, i);
-                }
+                for (const float dy : {-near, near}) note(mover.seen_at(x + dx, y + dy));
             }
         }
-        for (const float way : k_turns) {
-            const Intensities turned = mover.seen_at(x, y, way);
-            for (std::size_t i = 0; i < there.size(); ++i) note(turned, i);
-        }
+        for (const float way : k_turns) note(mover.seen_at(x, y, way));
         for (std::size_t i = 0; i < there.size(); ++i) {
             change[i] += share * largest[i];
             mean[i] += share * there[i];
@@ -239,11 +244,14 @@ Sensitivity sensitivity_of(candela::RenderScene& scene, const candela::Film& ref
     Sensitivity result{.edges = std::vector<bool>(expected.size() / 3, false),
                        .right = std::vector<float>(expected.size()),
                        .down = std::vector<float>(expected.size())};
+    const Intensities levels_of_mean = levels_of(mean, transform);
+    for (auto* const means : {&beside_x, &beside_y})
+        for (Intensities& each : *means) each = levels_of(each, transform);
     const auto slope = [&](const std::array<Intensities, 2>& means, std::size_t i) {
-        return (level_of(means[1][i], encoding) - level_of(means[0][i], encoding)) / (2 * k_shift);
+        return (means[1][i] - means[0][i]) / (2 * k_shift);
     };
     for (std::size_t i = 0; i < expected.size(); ++i) {
-        const float apart = std::abs(level_of(mean[i], encoding) - static_cast<float>(expected[i]));
+        const float apart = std::abs(levels_of_mean[i] - static_cast<float>(expected[i]));
         if (change[i] > levels || apart > levels) result.edges[i / 3] = true;
         result.right[i] = slope(beside_x, i);
         result.down[i] = slope(beside_y, i);

@@ -24,10 +24,20 @@ enum class ColorEncoding : int {
     none,  // used as they are
 };
 
+/// How exposed intensities become those of a display, 0 to 1, before they are clamped and encoded (`tone` in
+/// the scene file; candela/kernel/display.kernel).
+enum class ToneCurve : int {
+    none,
+    khronos_neutral,
+    aces,
+    agx,
+    reinhard,
+};
+
 /// How an image format stores a channel.
 enum class PixelType : int {
-    byte,  // 8 bits: clamped, and encoded as color_management says
-    real,  // 32-bit float: the computed intensities, unclamped
+    byte,  // 8 bits: exposed, clamped, and encoded as the scene's image says
+    real,  // 32-bit float: the computed intensities, neither exposed nor clamped
 };
 
 /// The sRGB transfer functions (IEC 61966-2-1:1999): encoded to linear and back, per channel, 0 to 1.

@@ -117,6 +117,8 @@ struct ExportedImage {
     Vec3 background{};             // 0-255
     const char* environment = "";  // absolute path of an environment map; empty: the background
     ColorEncoding color_management = ColorEncoding::srgb;
+    float exposure = 1;  // intensities are multiplied by it, but not the background
+    ToneCurve tone = ToneCurve::none;
 };
 
 struct ExportedObserver {
@@ -242,6 +244,7 @@ struct TargetAbilities {
     bool textures = false;               // ExportedObject::color_texture
     bool textured_numbers = false;       // ExportedObject::textured_numbers
     bool shadows = false;                // ExportedScene::has_shadows
+    bool display = false;                // ExportedImage::exposure and ::tone
 };
 
 /// Turns a scene into something else: a program, a page, a file. Any thread.

@@ -56,6 +56,9 @@ struct Field {
     Field choices(const std::vector<std::string>& words) const {
         return with([&](Field& f) { f.parameter.choices = words; });
     }
+    Field notation(Notation which) const {
+        return with([&](Field& f) { f.parameter.notation = which; });
+    }
     Field required() const {
         return with([](Field& f) { f.parameter.default_value.reset(); });
     }

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <regex>
 #include <set>
 #include <span>
@@ -54,6 +55,7 @@ class CppWriter {
         for (const auto& [name, part] : shadows_) glue += part;
         std::string kernels = model_kernels();
         const std::string library = vectors_for(kernels + textures_.declarations);
+        glue += tone_kernel_text() + toned_text();
         kernels = needed_parts(kernel_prelude(), kernels + glue) + "\n" + kernels;
         const bool has_tables = !scene_.tables.empty() || is_spoken_of("Table", without_comments(kernels));
         const std::string vectors = needed_parts(library, kernels + glue);
@@ -79,6 +81,15 @@ class CppWriter {
              is_srgb ? "x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1 / 2.4f) - 0.055f" : "x"},
             {"WIDTH", fmt::format("{}", image.width)},
             {"HEIGHT", fmt::format("{}", image.height)},
+            {"EXPOSURE",
+             is_exposed() ? fmt::format("const float k_exposure = {};  // intensities are multiplied by it\n",
+                                        float_text(image.exposure))
+                          : ""},
+            // Shown as it is written, whatever the exposure.
+            {"BACKGROUND_FACTOR", is_exposed() ? "1 / k_exposure * " : ""},
+            {"TONE_KERNEL", tone_kernel_text()},
+            {"INTENSITY", is_displayed_plainly() ? "p" : "intensity"},
+            {"TONED", toned_text()},
             {"BACKGROUND", list(image.background.x, image.background.y, image.background.z)},
             {"SAMPLES", samples()},
             {"EYE", vec3_text(observer.position)},
@@ -149,6 +160,27 @@ class CppWriter {
         "    const auto n = [&](int k) { return o.vertex_normal[static_cast<std::size_t>(v[k])]; };\n"
         "    return {p(0), p(1), p(2), n(0), n(1), n(2)};\n"
         "}\n\n";
+    bool is_exposed() const { return scene_.image.exposure != 1; }
+    bool is_displayed_plainly() const { return !is_exposed() && scene_.image.tone == ToneCurve::none; }
+
+    /// The function of a tone curve, with those that it calls; empty without one.
+    std::string tone_kernel_text() const {
+        if (scene_.image.tone == ToneCurve::none) return "";
+        return needed_parts(tone_kernel(), toned_text()) + "\n";
+    }
+
+    /// The exposed and toned intensity `p` of a pixel; empty in a scene without exposure and tone.
+    std::string toned_text() const {
+        static constexpr std::array<const char*, 5> k_calls = {"", "tone_khronos_neutral", "tone_aces",
+                                                               "tone_agx", "tone_reinhard"};
+        if (is_displayed_plainly()) return "";
+        const std::string exposed = is_exposed() ? "k_exposure * intensity" : "intensity";
+        const char* const call = k_calls.at(static_cast<std::size_t>(scene_.image.tone));
+        const bool has_tone = scene_.image.tone != ToneCurve::none;
+        return has_tone ? fmt::format("        const vec3 p = {}(clamp({}, 0.0f, 1.0e12f));\n", call, exposed)
+                        : fmt::format("        const vec3 p = {};\n", exposed);
+    }
+
     /// Empty in a program in which no model reads its triangle.
     std::string if_triangles(const char* text) const {
         const bool sees =
@@ -368,7 +400,8 @@ class CppTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
-                .shadows = true};
+                .shadows = true,
+                .display = true};
     }
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::write(files, main_file(), CppWriter(scene).run());

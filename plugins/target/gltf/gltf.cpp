@@ -47,6 +47,8 @@ class Writer {
             files_.approximate(
                 "color_management = \"none\" becomes light that is added up linearly and encoded in the "
                 "picture");
+        if (scene_.image.exposure != 1) files_.approximate("the exposure is left out");
+        if (scene_.image.tone != ToneCurve::none) files_.approximate("the tone curve is left out");
         Json nodes = Json::array();
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) add_object(i, nodes);
         add_lights(scene_, document_, nodes, files_);
@@ -102,7 +104,8 @@ class GltfTarget final : public Target {
                 .triangle = true,
                 .vertex_colors = true,
                 .textures = true,
-                .shadows = true};  // programs that show the file cast their own
+                .shadows = true,  // programs that show the file cast their own, and expose it
+                .display = true};
     }
     const char* main_file() const noexcept override { return "scene.glb"; }
 

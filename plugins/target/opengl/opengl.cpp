@@ -65,7 +65,10 @@ class OpenGlWriter {
             {"WIDTH", fmt::format("{}", image.width)},
             {"HEIGHT", fmt::format("{}", image.height)},
             {"IS_SRGB", encoding_ == ColorEncoding::srgb ? "true" : "false"},
-            {"BACKGROUND", braces(decoded(image.background, encoding_))},
+            {"EXPOSURE", float_text(image.exposure)},
+            {"TONE", fmt::format("{}", static_cast<int>(image.tone))},
+            // Shown as it is written, whatever the exposure.
+            {"BACKGROUND", braces(1 / image.exposure * decoded(image.background, encoding_))},
             {"SAMPLES", samples()},
             {"OBSERVER", observer()},
             {"LIGHT_COUNTS", light_counts()},
@@ -287,7 +290,7 @@ class OpenGlTarget final : public Target {
     explicit OpenGlTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.triangle = true, .vertex_colors = true, .textures = true, .shadows = true};
+        return {.triangle = true, .vertex_colors = true, .textures = true, .shadows = true, .display = true};
     }
     void write(const ExportedScene& scene, FileSink& files) const override { OpenGlWriter(scene).run(files); }
     const char* main_file() const noexcept override { return "scene.cpp"; }

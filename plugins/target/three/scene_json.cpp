@@ -190,6 +190,11 @@ class Writer {
                 {"least_margin", tree.least_margin}};
     }
 
+    /// Shown as it is written, whatever the exposure.
+    static Json background_json(const ExportedImage& image) {
+        return vector_json(1 / image.exposure * intensities(image.background, image.color_management));
+    }
+
     Json image_json() const {
         const ExportedImage& image = scene_.image;
         Json samples = Json::array();
@@ -197,7 +202,9 @@ class Writer {
         return {{"width", image.width},
                 {"height", image.height},
                 {"samples", std::move(samples)},
-                {"background", vector_json(intensities(image.background, image.color_management))},
+                {"background", background_json(image)},
+                {"exposure", image.exposure},
+                {"tone", static_cast<int>(image.tone)},
                 {"is_srgb", image.color_management == ColorEncoding::srgb}};
     }
 

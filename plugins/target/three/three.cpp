@@ -50,7 +50,8 @@ class ThreeTarget final : public Target {
                 .triangle = true,
                 .vertex_colors = true,
                 .textures = true,
-                .shadows = true};
+                .shadows = true,
+                .display = true};
     }
     const char* main_file() const noexcept override { return "scene.html"; }
     bool can_draw() const noexcept override { return true; }

@@ -1,6 +1,7 @@
 // The page: a template, the scene as JSON, and the scripts that read it.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -236,6 +237,14 @@ Json textures_json(const ExportedScene& scene, PageArrays& arrays) {
     return textures;
 }
 
+/// The values of the parameter "tone" of the page's scripts, and of scenes.
+constexpr std::array<const char*, 5> k_tones = {"none", "khronos-neutral", "aces", "agx", "reinhard"};
+
+/// The exposure value at ISO 100 whose factor is the image's, with the digits that identify it.
+Json exposure_value(const ExportedImage& image) {
+    return std::round(1e6 * -std::log2(1.2 * static_cast<double>(image.exposure))) / 1e6;
+}
+
 Json image_json(const ExportedImage& image) {
     Json positions = Json::array();
     for (const ExportedSample& s : image.samples) positions.push_back({s.x, s.y});
@@ -244,6 +253,9 @@ Json image_json(const ExportedImage& image) {
             {"samples", image.samples.size()},
             {"sample_positions", std::move(positions)},
             {"background", vector_json(image.background)},
+            {"exposure", exposure_value(image)},
+            {"exposure_factor", image.exposure},
+            {"tone", k_tones.at(static_cast<std::size_t>(image.tone))},
             {"color_management", image.color_management == ColorEncoding::srgb ? "srgb" : "none"}};
 }
 
@@ -340,7 +352,7 @@ class WebGlTarget final : public Target {
     explicit WebGlTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.triangle = true, .vertex_colors = true, .textures = true, .shadows = true};
+        return {.triangle = true, .vertex_colors = true, .textures = true, .shadows = true, .display = true};
     }
     void write(const ExportedScene& scene, FileSink& files) const override {
         PageArrays arrays;

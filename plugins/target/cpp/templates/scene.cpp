@@ -42,7 +42,7 @@ float decoded(float c) { return @DECODED@; }
 vec3 color(float r, float g, float b) { return vec3(decoded(r / 255), decoded(g / 255), decoded(b / 255)); }
 
 const int k_width = @WIDTH@, k_height = @HEIGHT@;
-const vec3 k_background = color(@BACKGROUND@);
+@EXPOSURE@const vec3 k_background = @BACKGROUND_FACTOR@color(@BACKGROUND@);
 
 // The positions of samples within a pixel, from its top left.
 const std::vector<vec2> k_samples = {@SAMPLES@};
@@ -296,10 +296,10 @@ std::vector<vec3> render(const std::vector<Object>& objects) {
 @ENCODED_COMMENT@
 float encoded(float x) { return @ENCODED@; }
 
-std::vector<std::uint8_t> bytes_of(const std::vector<vec3>& picture) {
+@TONE_KERNEL@std::vector<std::uint8_t> bytes_of(const std::vector<vec3>& picture) {
     std::vector<std::uint8_t> bytes;
-    for (const vec3& p : picture) {
-        for (const float x : {p.x, p.y, p.z})
+    for (const vec3& @INTENSITY@ : picture) {
+@TONED@        for (const float x : {p.x, p.y, p.z})
             bytes.push_back(static_cast<std::uint8_t>(255.0f * encoded(std::min(std::max(x, 0.0f), 1.0f)) + 0.5f));
     }
     return bytes;

@@ -86,6 +86,8 @@ struct Object {
 
 const int k_width = @WIDTH@, k_height = @HEIGHT@;
 const bool k_is_srgb = @IS_SRGB@;
+const float k_exposure = @EXPOSURE@;  // intensities are multiplied by it
+const int k_tone = @TONE@;            // the tone curve: 0 none, 1 Khronos PBR Neutral, 2 ACES, 3 AgX, 4 Reinhard
 const vec3 k_background = @BACKGROUND@;
 
 // The positions of samples within a pixel, from its top left.
@@ -372,7 +374,9 @@ class Renderer {
             sum = 1 - sum;
         }
         glBindFramebuffer(GL_FRAMEBUFFER, target);
-        cover(encode_, sums_[sum].texture, {{"is_srgb", Uniform::whole, {k_is_srgb ? 1.0f : 0.0f, 0, 0}}});
+        cover(encode_, sums_[sum].texture, {{"is_srgb", Uniform::whole, {k_is_srgb ? 1.0f : 0.0f, 0, 0}},
+                                              {"exposure", Uniform::real, {k_exposure, 0, 0}},
+                                              {"tone", Uniform::whole, {static_cast<float>(k_tone), 0, 0}}});
     }
 
   private:

@@ -24,7 +24,7 @@ class Pass {
 /** Adds up the pictures of all samples as intensities, and shows them according to the scene's colour management. */
 export class Film {
     constructor(renderer, json) {
-        const { width, height, is_srgb } = json.image, limit = renderer.capabilities.maxTextureSize;
+        const { width, height, is_srgb, exposure, tone } = json.image, limit = renderer.capabilities.maxTextureSize;
         if (Math.max(width, height) > limit) throw new Error(`This device draws pictures of at most ${limit} x ${limit} pixels.`);
         const type = renderer.extensions.has("EXT_color_buffer_float") ? FloatType : HalfFloatType;
         const target = (depthBuffer) =>
@@ -34,7 +34,9 @@ export class Film {
         this.sum = target(false);
         this.next = target(false);
         this.addition = new Pass(json, json.shaders.accumulate, { picture: { value: null }, sum: { value: null }, weight: { value: 0 } });
-        this.encoding = new Pass(json, json.shaders.encode, { sum: { value: null }, is_srgb: { value: is_srgb } });
+        this.encoding = new Pass(json, json.shaders.encode, {
+            sum: { value: null }, is_srgb: { value: is_srgb }, exposure: { value: exposure }, tone: { value: tone },
+        });
     }
 
     clear() {

@@ -1,6 +1,6 @@
 import { decodeColor } from "../../../../sdk/web/colors.js";
-import { COLOR, SHADOWS_PATH } from "./parameters.js";
-import { normalize } from "../../../../sdk/web/vectors.js";
+import { COLOR, EXPOSURE_PATH, SHADOWS_PATH, TONE, TONE_PATH } from "./parameters.js";
+import { normalize, scale } from "../../../../sdk/web/vectors.js";
 
 /** A parameter's value for a shader: { kind: "int" | "float" | "vec3", value }, angles in radians. */
 function toUniform(parameter, value, isSrgb) {
@@ -57,6 +57,12 @@ export function materialUniforms(settings, index, reflection) {
         scene.objects[index].fixed.material[reflection], "material", isSrgb);
 }
 
+/** The factor of intensities: 1 / (1.2 · 2^EV), or the scene's own. */
+function exposureFactor(settings) {
+    const value = settings.get(EXPOSURE_PATH);
+    return value === settings.find(EXPOSURE_PATH).initial ? settings.scene.image.exposure_factor : 1 / (1.2 * 2 ** value);
+}
+
 /** A snapshot of the settings for the renderer, so that they may change while it refines a picture. */
 export function appearanceOf(settings) {
     const { scene } = settings;
@@ -84,5 +90,10 @@ export function appearanceOf(settings) {
             ],
         };
     });
-    return { observer: settings.observer(), background: decodeColor(scene.image.background, isSrgb), lights, objects };
+    const exposure = exposureFactor(settings);
+    return {
+        observer: settings.observer(), exposure, tone: TONE.choices.indexOf(settings.get(TONE_PATH)), lights, objects,
+        // Shown as it is written, whatever the exposure.
+        background: scale(decodeColor(scene.image.background, isSrgb), 1 / exposure),
+    };
 }

@@ -138,10 +138,10 @@ export class Explanation {
         announce(`${pixel} is explained: ${bytes.join(", ")}.`);
     }
 
-    pixelTable({ I, encoded, bytes, color_management: management }) {
-        const channels = ["red", "green", "blue"];
-        return table("From the intensity to the byte", ["I", management === "srgb" ? "sRGB" : "clamped", "× 255", "byte"],
-            channels.map((name, c) => row(name, number(I[c]), number(encoded[c]), (255 * encoded[c]).toFixed(2), String(bytes[c]))));
+    pixelTable({ I, toned, tone, encoded, bytes, color_management: management }) {
+        const channels = ["red", "green", "blue"], tonedHeads = toned ? [tone === "none" ? "exposed" : `exposed, ${tone}`] : [];
+        return table("From the intensity to the byte", ["I", ...tonedHeads, management === "srgb" ? "sRGB" : "clamped", "× 255", "byte"],
+            channels.map((name, c) => row(name, number(I[c]), ...(toned ? [number(toned[c])] : []), number(encoded[c]), (255 * encoded[c]).toFixed(2), String(bytes[c]))));
     }
 
     /** A choice among several, or nothing for one; `pick` is called for the first. */

@@ -1,3 +1,5 @@
+import { EXPOSURE_PATH } from "./parameters.js";
+
 /** A value as TOML, the form that --set takes: numbers, arrays, booleans and texts. */
 const tomlOf = (value) => JSON.stringify(value);
 
@@ -26,6 +28,8 @@ export function optionsOf(allSettings, pane = 0) {
         if (["show", "panes"].includes(kind)) continue;
         if (kind === "shading" || kind === "reflection") {
             if (value !== "") options.push([kind, nameOf(scene, kind, value)]);
+        } else if (path === EXPOSURE_PATH) {
+            options.push(["set", `observer.exposure=${tomlOf(value)}`]);
         } else if (kind === "light" && group === "on") {
             if (!value) options.push(["set", `light.${index}.intensity=0`]);
         } else if (kind === "light") {

@@ -1,5 +1,6 @@
 import { toHex } from "../../../../sdk/web/colors.js";
 import { element, isolated } from "../../../../sdk/web/elements.js";
+import { EXPOSURE_PATH, TONE_PATH } from "./parameters.js";
 import { followPresets, presetChoice } from "./presets.js";
 import { displayName } from "../../../../sdk/web/scene.js";
 import { formulaLines } from "./formulas/typeset.js";
@@ -85,9 +86,13 @@ export class Panels {
         this.fill("objects", this.scene.objects, (object, i) => this.objectSection(object, i));
         this.fill("lights", this.scene.lights, (light, i) => this.lightSection(light, i));
         const observer = disclosure([element("span", { class: "title" }, "Observer")], false, () =>
-            this.settings.observerParameters().map(({ name }) => this.controls.of(`observer.${name}`, name)));
+            [
+                ...this.settings.observerParameters().map(({ name }) => this.controls.of(`observer.${name}`, name)),
+                this.controls.of(EXPOSURE_PATH, "exposure"),
+                this.controls.of(TONE_PATH, "tone"),
+            ]);
         document.getElementById("observer").append(observer);
-        this.follow(observer, "observer.", () => this.scene.observer);
+        this.follow(observer, "observer.", () => [this.scene.observer, this.scene.image.exposure, this.scene.image.tone]);
     }
 
     fill(id, items, make) {

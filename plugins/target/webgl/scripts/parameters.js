@@ -23,4 +23,12 @@ export const LAYOUT = makeParameter("panes", "choice", { choices: ["one", "two",
 export const SHADOWS_PATH = "shadows.enabled";
 export const SHADOWS = makeParameter("enabled", "boolean");
 
+/** How intensities become bytes: settings of the picture as a whole. */
+export const EXPOSURE_PATH = "image.exposure", TONE_PATH = "image.tone";
+export const EXPOSURE = makeParameter("exposure", "real", {
+    unit: "EV", meaning: "exposure value at ISO 100: intensities are divided by 1.2 · 2^EV", default: 1, minimum: -24, maximum: 24,
+});
+/** In the order in which the shader knows them. */
+export const TONE = makeParameter("tone", "choice", { choices: ["none", "khronos-neutral", "aces", "agx", "reinhard"] });
+
 export const SWITCH = makeParameter("on", "boolean", { meaning: "whether the light is on" });

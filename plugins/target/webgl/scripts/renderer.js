@@ -204,9 +204,13 @@ export class Renderer {
         film.swap();
     }
 
-    /** Writes a target's intensities to a framebuffer, encoded for the screen or a file; null is the canvas. */
-    encode(target, framebuffer) {
-        this.drawPass("encode", framebuffer, { sum: target }, { is_srgb: { kind: "int", value: this.isSrgb ? 1 : 0 } });
+    /** Writes a target's intensities to a framebuffer, as an appearance shows them on the screen or in a file; null is the canvas. */
+    encode(target, framebuffer, { exposure, tone }) {
+        this.drawPass("encode", framebuffer, { sum: target }, {
+            is_srgb: { kind: "int", value: this.isSrgb ? 1 : 0 },
+            exposure: { kind: "float", value: exposure },
+            tone: { kind: "int", value: tone },
+        });
     }
 
     /** The finished picture: rows of RGBA bytes, from the top. */
@@ -221,7 +225,7 @@ export class Renderer {
             this.drawSample(film, appearance, position);
             this.accumulate(film, 1 / positions.length);
         }
-        this.encode(film.sum, encoded.framebuffer);
+        this.encode(film.sum, encoded.framebuffer, appearance);
         const bottomUp = new Uint8Array(4 * width * height);
         gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, bottomUp);
         gl.deleteTexture(encoded.texture);

@@ -1,6 +1,6 @@
 import { validateObserver } from "../../../../sdk/web/camera.js";
 import { areLightsShown } from "./light_places.js";
-import { COLOR, LAYOUT, OBSERVER_PARAMETERS, SHADOWS, SHADOWS_PATH, SHOWN, SWITCH, makeParameter } from "./parameters.js";
+import { COLOR, EXPOSURE, EXPOSURE_PATH, LAYOUT, OBSERVER_PARAMETERS, SHADOWS, SHADOWS_PATH, SHOWN, SWITCH, TONE, TONE_PATH, makeParameter } from "./parameters.js";
 import { validateValue } from "./validation.js";
 import { areEqual, canonicalValue } from "../../../../sdk/web/values.js";
 
@@ -80,6 +80,10 @@ export class Settings {
             found = { parameter: makeParameter(kind, "choice", { choices }), initial: "" };
         } else if (path === SHADOWS_PATH) {
             found = scene.shadows && { parameter: SHADOWS, initial: true };
+        } else if (path === EXPOSURE_PATH) {
+            found = { parameter: EXPOSURE, initial: scene.image.exposure };
+        } else if (path === TONE_PATH) {
+            found = { parameter: TONE, initial: scene.image.tone };
         } else if (path === "panes") {
             found = { parameter: LAYOUT, initial: "one" };
         } else if (kind === "show" && rest.length === 1) {

@@ -116,15 +116,15 @@ export class Viewport {
     }
 
     /** Puts a film's target into the context's canvas. */
-    encode({ film, target }) {
+    encode({ film, target, appearance }) {
         // Resizing clears the canvas, so it is drawn in the same frame.
         if (this.canvas.width !== film.width) this.canvas.width = film.width;
         if (this.canvas.height !== film.height) this.canvas.height = film.height;
-        this.renderer.encode(target, null);
+        this.renderer.encode(target, null, appearance);
     }
 
     show(view, target) {
-        view.shown = { film: view.film, target };
+        view.shown = { film: view.film, target, appearance: view.appearance };
         this.encode(view.shown);
         if (!view.context) return;
         const { width, height } = view.film;

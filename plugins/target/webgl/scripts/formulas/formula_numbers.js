@@ -100,9 +100,9 @@ export function sumAt(point) {
 }
 
 /** From an intensity to the byte, channel by channel: the sRGB curve of IEC 61966-2-1. */
-export function encodingAt({ I, encoded, bytes, color_management: management }) {
+export function encodingAt({ I, toned = I, encoded, bytes, color_management: management }) {
     const lines = ["red", "green", "blue"].map((channel, c) => {
-        const clamped = Math.min(1, Math.max(0, I[c])), x = mathNumber(shown(clamped));
+        const clamped = Math.min(1, Math.max(0, toned[c])), x = mathNumber(shown(clamped));
         const curve = management !== "srgb" ? [x] : clamped <= 0.0031308 ? [mathNumber("12.92"), mathSign("·"), x]
             : [mathNumber("1.055"), mathSign("·"), mathPower(x, mathRow(mathNumber("1"), mathSign("/"), mathNumber("2.4"))), mathSign("−"), mathNumber("0.055")];
         const byte = [mathNumber("255"), mathSign("·"), mathNumber(shown(encoded[c])), mathSign("="), mathNumber((255 * encoded[c]).toFixed(2)), mathSign("→"), mathNumber(String(bytes[c]))];

@@ -13,6 +13,9 @@ namespace candela::target {
 /// The structs and functions of every kernel's prelude, in the kernel language.
 std::string_view kernel_prelude();
 
+/// The tone curves of ToneCurve, in the kernel language.
+std::string_view tone_kernel();
+
 /// Table in GLSL; `table_numbers` is a texture (R32F) of ExportedScene::tables with k_table_width numbers in
 /// a row.
 std::string_view glsl_tables();
