@@ -80,6 +80,7 @@ MATERIALS = {
     "half-lambert": "kd = 0.7\nexponent = 2",
     "kajiya-kay": "kd = 0.4\nks = 0.4\nshininess = 40",
     "lambert": "kd = 0.7",
+    "metallic-roughness": "roughness = 0.6\nclearcoat = 1\nclearcoat_roughness = 0.1\nsheen_color = 0.3\nsheen_roughness = 0.5",
     "minnaert": "kd = 0.7\nk = 0.6",
     "oren-nayar": "kd = 0.7\nsigma = 40",
     "phong": "kd = 0.6\nks = 0.4\nshininess = 20",

@@ -87,11 +87,24 @@ std::optional<Highlight> highlight_of(const ExportedModel& model, const Exported
 }
 
 std::optional<Principled> principled_of(const ExportedModel& model, const ExportedValues& values) {
-    if (std::string_view(model.id) != "reflection/disney") return std::nullopt;
-    const float roughness = real_value(model, values, "roughness").value_or(1.0f);
-    return Principled{.metallic = real_value(model, values, "metallic").value_or(0.0f),
-                      .alpha = std::clamp(roughness * roughness, 1e-3f, 1.0f),
-                      .reflectance = 0.08f * real_value(model, values, "specular").value_or(0.5f)};
+    const std::string_view id = model.id;
+    const auto real = [&](const char* parameter, float otherwise) {
+        return real_value(model, values, parameter).value_or(otherwise);
+    };
+    const float roughness = real("roughness", 1), alpha = std::clamp(roughness * roughness, 1e-3f, 1.0f);
+    if (id == "reflection/disney") {
+        return Principled{
+            .metallic = real("metallic", 0), .alpha = alpha, .reflectance = 0.08f * real("specular", 0.5f)};
+    }
+    if (id != "reflection/metallic-roughness") return std::nullopt;
+    const float ior = real("ior", 1.5f), strength = real("anisotropy_strength", 0);
+    const float facets = (ior - 1) / (ior + 1) * ((ior - 1) / (ior + 1));
+    const Vec3 color = rgb_value(model, values, "specular_color").value_or(Vec3{1, 1, 1});
+    const float along = alpha + (1 - alpha) * strength * strength;
+    return Principled{
+        .metallic = real("metallic", 0),
+        .alpha = std::sqrt(alpha * along),
+        .reflectance = real("specular", 1) * std::min(facets * (color.x + color.y + color.z) / 3, 1.0f)};
 }
 
 void approximate_shading(const ExportedShading& shading, FileSink& files) {

@@ -1,7 +1,10 @@
 #include "document.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>
@@ -65,7 +68,7 @@ std::size_t Document::add_floats(std::span<const float> numbers, std::size_t per
     return add("accessors", {{"bufferView", view},
                              {"componentType", k_float},
                              {"count", numbers.size() / per_element},
-                             {"type", per_element == 2 ? "VEC2" : "VEC3"}});
+                             {"type", fmt::format("VEC{}", per_element)}});
 }
 
 std::size_t Document::add_positions(ConstVec3Span positions, std::size_t count) {
@@ -81,6 +84,20 @@ std::size_t Document::add_positions(ConstVec3Span positions, std::size_t count) 
 
 std::size_t Document::add_vectors(ConstVec3Span vectors, std::size_t count) {
     return add_floats(target::interleaved(vectors, count), 3);
+}
+
+std::size_t Document::add_tangents(ConstVec3Span dpdu, ConstVec3Span normals, std::size_t count) {
+    std::vector<float> numbers;
+    numbers.reserve(4 * count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 n = normals[i], aside = std::abs(n.x) < 0.7f ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
+        constexpr float k_least = 1e-6f;
+        Vec3 t = dpdu[i] - dot(dpdu[i], n) * n;
+        if (!(length(t) > k_least * length(dpdu[i]))) t = aside - dot(aside, n) * n;
+        t = (1 / length(t)) * t;
+        numbers.insert(numbers.end(), {t.x, t.y, t.z, 1});
+    }
+    return add_floats(numbers, 4);
 }
 
 std::size_t Document::add_texture_coordinates(ConstVec2Span coordinates, std::size_t count) {

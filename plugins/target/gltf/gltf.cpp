@@ -11,6 +11,7 @@
 #include "document.h"
 #include "lights.h"
 #include "materials.h"
+#include "metallic_roughness.h"
 #include "placement.h"
 
 namespace candela::gltf_target {
@@ -72,11 +73,14 @@ class Writer {
         if (mesh.indices.empty()) return;
         const std::size_t count = mesh.vertex_count;
         Json attributes = {{"POSITION", document_.add_positions(mesh.position, count)}};
+        const ConstVec3Span normals = mesh.normals[mesh.normals_of[object.shading]];
         // Without normals, a triangle is flat.
-        if (shading.rate != ShadingRate::face)
-            attributes["NORMAL"] =
-                document_.add_vectors(mesh.normals[mesh.normals_of[object.shading]], count);
-        if (mesh.uv && object.color_texture != ExportedObject::k_no_texture)
+        if (shading.rate != ShadingRate::face) attributes["NORMAL"] = document_.add_vectors(normals, count);
+        const bool has_tangents =
+            mesh.dpdu && shading.rate != ShadingRate::face &&
+            is_anisotropic(scene_.reflections[object.reflection], object.materials[object.reflection]);
+        if (has_tangents) attributes["TANGENT"] = document_.add_tangents(mesh.dpdu, normals, count);
+        if (mesh.uv && (has_tangents || object.color_texture != ExportedObject::k_no_texture))
             attributes["TEXCOORD_0"] = document_.add_texture_coordinates(mesh.uv, count);
         if (mesh.color) attributes["COLOR_0"] = document_.add_vectors(mesh.color, count);
         const std::size_t indices = document_.add_indices(mesh.indices);
@@ -115,7 +119,7 @@ class GltfTarget final : public Target {
 };
 
 constexpr Property k_properties[] = {{"exact-light", "directional, distributed, point"},
-                                     {"exact-reflection", "lambert"},
+                                     {"exact-reflection", "lambert, metallic-roughness"},
                                      {"exact-shading", "phong, angle-weighted, area-weighted, max-weighted"}};
 
 }  // namespace

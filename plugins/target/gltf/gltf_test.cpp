@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch_test_macros.hpp>
 #include <cmath>
 #include <cstdint>
@@ -271,6 +272,51 @@ TEST_CASE("target/gltf: a principled material becomes metallic-roughness of the 
     CHECK(is_near(plastic["pbrMetallicRoughness"]["metallicFactor"], 0));
     CHECK(is_near(plastic["pbrMetallicRoughness"]["baseColorFactor"][1], linear(100) / 0.92));
     CHECK(is_near(plastic["extensions"]["KHR_materials_specular"]["specularColorFactor"][0], 2));
+}
+
+TEST_CASE("target/gltf: a metallic-roughness material is glTF's own, with the extensions that it needs") {
+    const Folder folder = folder_with_leaf();
+    const auto made = [&](const std::string& values) {
+        return generated(folder, std::string(k_scene).replace(
+                                     k_scene.find("material ="), std::string::npos,
+                                     "reflection = \"metallic-roughness\"\nmaterial = { " + values + " }\n"));
+    };
+    const Json plain = made("metallic = 0.25, roughness = 0.75").json;
+    CHECK(plain["extensionsUsed"] == Json::array({"KHR_lights_punctual"}));
+    const Json& pbr = plain["materials"][0]["pbrMetallicRoughness"];
+    CHECK(pbr["metallicFactor"] == 0.25);
+    CHECK(pbr["roughnessFactor"] == 0.75);
+    CHECK(is_near(pbr["baseColorFactor"][1], linear(100)));
+
+    const Glb glb = made(
+        "ior = 1.75, specular = 0.5, specular_color = [1, 2, 0.5], clearcoat = 0.5, clearcoat_roughness = "
+        "0.25, sheen_color = [0, 0.5, 1], sheen_roughness = 0.5, anisotropy_strength = 0.5, "
+        "anisotropy_rotation = 90, iridescence = 1, iridescence_ior = 1.5, iridescence_thickness = 500");
+    const Json& extensions = glb.json["materials"][0]["extensions"];
+    CHECK(glb.json["extensionsUsed"].size() == 7);  // with lights
+    CHECK(extensions["KHR_materials_ior"] == Json{{"ior", 1.75}});
+    CHECK(extensions["KHR_materials_specular"] ==
+          Json{{"specularFactor", 0.5}, {"specularColorFactor", {1, 2, 0.5}}});
+    CHECK(extensions["KHR_materials_clearcoat"] ==
+          Json{{"clearcoatFactor", 0.5}, {"clearcoatRoughnessFactor", 0.25}});
+    CHECK(extensions["KHR_materials_sheen"] ==
+          Json{{"sheenColorFactor", {0, 0.5, 1}}, {"sheenRoughnessFactor", 0.5}});
+    CHECK(is_near(extensions["KHR_materials_anisotropy"]["anisotropyRotation"], std::numbers::pi / 2));
+    CHECK(extensions["KHR_materials_iridescence"] ==
+          Json{{"iridescenceFactor", 1}, {"iridescenceIor", 1.5}, {"iridescenceThicknessMaximum", 500}});
+    // A grain needs tangents: unit, perpendicular to the normals.
+    const Json& attributes = glb.json["meshes"][0]["primitives"][0]["attributes"];
+    const Json& accessor = glb.json["accessors"][attributes["TANGENT"].get<std::size_t>()];
+    CHECK(accessor["type"] == "VEC4");
+    const std::size_t at = glb.json["bufferViews"][accessor["bufferView"].get<std::size_t>()]["byteOffset"];
+    const std::vector<float> normal = numbers<float>(glb, attributes["NORMAL"]);
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::array<float, 4> t{};
+        std::memcpy(t.data(), glb.buffer.data() + at + 16 * i, sizeof t);
+        CHECK(std::abs(t[0] * normal[3 * i] + t[1] * normal[3 * i + 1] + t[2] * normal[3 * i + 2]) < 1e-6f);
+        CHECK(std::abs(std::hypot(t[0], t[1], t[2]) - 1) < 1e-6f);
+        CHECK(t[3] == 1);
+    }
 }
 
 TEST_CASE("target/gltf: textures are embedded unchanged, with v from the top, and read back") {

@@ -15,6 +15,7 @@
 
 #include "candela/color.h"
 #include "candela/target/renderers.h"
+#include "metallic_roughness.h"
 
 namespace candela::gltf_target {
 
@@ -125,18 +126,12 @@ std::size_t Materials::texture_of(const ExportedObject& object) {
     return document_.add("textures", {{"sampler", sampler}, {"source", image->second}});
 }
 
-std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
-    const Rgb color = decoded(object.color, scene_.image.color_management);
-    const Surface surface =
-        surface_of(scene_.reflections[object.reflection], object.materials[object.reflection],
-                   {color.r, color.g, color.b}, files_);
-    Json pbr = {{"baseColorFactor", {surface.base.x, surface.base.y, surface.base.z, 1}},
-                {"metallicFactor", surface.metallic},
-                {"roughnessFactor", surface.roughness}};
-    if (object.color_texture != ExportedObject::k_no_texture)
-        pbr["baseColorTexture"]["index"] = texture_of(object);
-    Json material = {{"name", object.label}, {"pbrMetallicRoughness", std::move(pbr)}};
-    if (!is_closed) material["doubleSided"] = true;
+Json Materials::approximate(const ExportedReflection& model, const ExportedValues& values, Vec3 color) {
+    const Surface surface = surface_of(model, values, color, files_);
+    Json material = {{"pbrMetallicRoughness",
+                      {{"baseColorFactor", {surface.base.x, surface.base.y, surface.base.z, 1}},
+                       {"metallicFactor", surface.metallic},
+                       {"roughnessFactor", surface.roughness}}}};
     const Vec3 usual{k_dielectric, k_dielectric, k_dielectric};
     if (!surface.has_specular) {
         material["extensions"][k_specular]["specularFactor"] = 0;
@@ -145,6 +140,20 @@ std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
             json_of((1 / k_dielectric) * surface.mirrored);
     }
     if (material.contains("extensions")) document_.use_extension(k_specular);
+    return material;
+}
+
+std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
+    const ExportedReflection& model = scene_.reflections[object.reflection];
+    const ExportedValues& values = object.materials[object.reflection];
+    const Rgb decoded_color = decoded(object.color, scene_.image.color_management);
+    const Vec3 color{decoded_color.r, decoded_color.g, decoded_color.b};
+    const auto exact = metallic_roughness_material(model, values, color, document_);
+    Json material = exact ? *exact : approximate(model, values, color);
+    material["name"] = object.label;
+    if (object.color_texture != ExportedObject::k_no_texture)
+        material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = texture_of(object);
+    if (!is_closed) material["doubleSided"] = true;
     return document_.add("materials", std::move(material));
 }
 

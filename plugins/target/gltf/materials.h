@@ -1,9 +1,10 @@
-// Materials in the form of glTF: metallic-roughness and KHR_materials_specular.
+// Materials in the form of glTF: its own model, and the nearest to others.
 #pragma once
 
 #include <cstddef>
 #include <map>
 
+#include "candela/math.h"
 #include "candela/target.h"
 #include "document.h"
 
@@ -20,6 +21,8 @@ class Materials {
     std::size_t add(const ExportedObject& object, bool is_closed);
 
   private:
+    /// The nearest to a model that glTF does not have.
+    Json approximate(const ExportedReflection& model, const ExportedValues& values, Vec3 color);
     std::size_t texture_of(const ExportedObject& object);
 
     const ExportedScene& scene_;

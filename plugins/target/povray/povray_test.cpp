@@ -381,9 +381,10 @@ radius = 0.005
 }
 
 TEST_CASE("target/povray: a principled material has the highlight of its metallic share and roughness") {
-    const auto finish = [](const std::string& values) {
+    const auto finish = [](const std::string& values, const std::string& model = "disney") {
         const Folder folder;
-        succeeded(generate(folder, k_head + R"(observer = {position = [0, 0, 4], look_at = [0, 0, 0]}
+        succeeded(generate(folder,
+                           k_head + R"(observer = {position = [0, 0, 4], look_at = [0, 0, 0]}
 image = {width = 64, height = 48}
 [[light]]
 type = "directional"
@@ -391,14 +392,16 @@ direction = [0, -1, 0]
 [[object]]
 type = "sphere"
 color = [255, 255, 255]
-reflection = "disney"
-material = {)" + values + "}\n",
+reflection = ")" + model + "\"\nmaterial = {" +
+                               values + "}\n",
                            {"--approximate"}));
         return folder.read("made/scene.pov");
     };
     // A roughness of 0.5 is an alpha of 0.25: F / (4 alpha^2) = 4 F, and an exponent of 2 / alpha^2 - 2 = 30.
     CHECK(holds(finish("metallic = 1"), "diffuse 0 specular 4 roughness 0.03333"));
     CHECK(holds(finish("specular = 1"), "diffuse 1 specular 0.32 roughness 0.03333"));
+    CHECK(holds(finish("specular = 0.5", "metallic-roughness"),
+                "diffuse 1 specular 0.080000006 roughness 0.03333"));
 }
 
 TEST_CASE(

@@ -39,8 +39,8 @@ struct Highlight {
 };
 std::optional<Highlight> highlight_of(const ExportedModel& model, const ExportedValues& values);
 
-/// The parts of Burley's model, reflection/disney, that renderers have: a mixture of a dielectric and a metal
-/// of the object's colour. Nothing for other models.
+/// The parts of reflection/disney and reflection/metallic-roughness that renderers have: a mixture of a
+/// dielectric and a metal of the object's colour. Nothing for other models.
 struct Principled {
     float metallic = 0;     // share of the metal
     float alpha = 1;        // roughness of facets, as in Highlight
