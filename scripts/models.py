@@ -84,6 +84,7 @@ MATERIALS = {
     "minnaert": "kd = 0.7\nk = 0.6",
     "oren-nayar": "kd = 0.7\nsigma = 40",
     "phong": "kd = 0.6\nks = 0.4\nshininess = 20",
+    "specular-glossiness": "specular_color = [0.5, 0.35, 0.2]\nglossiness = 0.6",
     "toon": "ks = 0.4\nbands = 3\nhighlight = 12",
     "ward": "kd = 0.4\nks = 0.6\nroughness_u = 0.1\nroughness_v = 0.3",
 }
@@ -91,6 +92,7 @@ SHAPES = {"sphere": "radius = 0.9", "cube": "size = 1.3\nrotation = [0, 35, 0]",
           "torus": "major_radius = 0.75\nminor_radius = 0.3\nrotation = [35, 0, 0]", "teapot": "size = 1.2"}
 # These models show the object's surroundings and therefore have no lobe.
 SHOW_SURROUNDINGS = {"dielectric"}
+REFLECT_NO_LIGHTS = {"unlit"}  # and therefore have none, either
 TYPES = {"real": "number", "rgb": "1 or 3 numbers", "color": "colour", "point": "3 numbers", "direction": "3 numbers",
          "vector": "3 numbers", "choice": "word", "matrix": "3 rows of 3 numbers", "numbers": "list of numbers"}
 
@@ -154,7 +156,7 @@ class Model:
         return None
 
     def has_lobe(self):
-        return self.kind == "reflection" and self.name not in SHOW_SURROUNDINGS
+        return self.kind == "reflection" and self.name not in SHOW_SURROUNDINGS | REFLECT_NO_LIGHTS
 
     def scene(self, part):
         """The scene of the picture, with `part` in its place."""

@@ -89,14 +89,23 @@ class MaterialReader {
         } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" ||
                    keyword == "disp" || keyword == "decal" || keyword == "refl") {
             note(fmt::format("textures other than colour textures are left out, such as '{}'", keyword));
-        } else if (keyword == "pr" || keyword == "pm" || keyword == "ps" || keyword == "pc" ||
-                   keyword == "pcr" || keyword == "aniso" || keyword == "anisor") {
-            note("the roughness and metalness of materials are left out; they become Phong materials");
+        } else if (std::optional<double>* const value = physical(keyword, to)) {
+            if (!numbers.empty()) *value = first;
         } else if (keyword == "tf") {
             // White transmits everything, and so says nothing.
             if (!are_all(numbers, 1)) note("the transmission of materials is left out");
         }
         // Ni, the index of refraction, matters only with opacity; sharpness only for reflections.
+    }
+
+    /// The value of a keyword of Clara.io's extension for physically based materials.
+    static std::optional<double>* physical(std::string_view keyword, MtlMaterial& of) {
+        const std::pair<std::string_view, std::optional<double>*> values[] = {
+            {"pr", &of.roughness},       {"pm", &of.metallic},      {"ps", &of.sheen},       {"pc", &of.coat},
+            {"pcr", &of.coat_roughness}, {"aniso", &of.anisotropy}, {"anisor", &of.rotation}};
+        for (const auto& [name, value] : values)
+            if (name == keyword) return value;
+        return nullptr;
     }
 
     void color(std::string_view rest, std::vector<double>& to) {

@@ -1,6 +1,7 @@
 // The materials of an MTL file.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,10 @@ struct MtlMaterial {
     int illumination = 2;            // illum
     std::string texture;             // map_Kd, as the file names it
     bool clamps = false;             // the texture is clamped at its edges
+    // Of materials for physically based models, absent for others:
+    std::optional<double> roughness{}, metallic{}, sheen{};  // Pr, Pm, Ps
+    std::optional<double> coat{}, coat_roughness{};          // Pc, Pcr
+    std::optional<double> anisotropy{}, rotation{};          // aniso; anisor, in turns
 };
 
 struct MaterialLibrary {

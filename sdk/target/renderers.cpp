@@ -69,6 +69,12 @@ std::optional<float> real_value(const ExportedModel& model, const ExportedValues
 }
 
 std::optional<Highlight> highlight_of(const ExportedModel& model, const ExportedValues& values) {
+    if (std::string_view(model.id) == "reflection/specular-glossiness") {
+        const float rough = 1 - real_value(model, values, "glossiness").value_or(0);
+        return Highlight{.specular = rgb_value(model, values, "specular_color").value_or(Vec3{}),
+                         .alpha = std::clamp(rough * rough, 1e-3f, 1.0f),
+                         .facets = 1};
+    }
     const auto specular = rgb_value(model, values, "ks");
     if (!specular) return std::nullopt;
     const auto alpha = mean_value(model, values, "roughness", "roughness_u", "roughness_v");

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -136,23 +137,61 @@ TEST_CASE("import uses the mean of a texture of metalness and roughness") {
     CHECK(holds(imported.result.out + imported.result.err, "0 textures"));
 }
 
-TEST_CASE("a metal's highlights have the mean colour of its texture and of its vertices") {
-    File factors;
-    factors.pbr() = {{"baseColorFactor", {1, 0.5, 0.25, 1}}, {"roughnessFactor", 0.5}};
-    CHECK(holds(import(factors).scene, "ks        = [1.0, 0.5, 0.25]"));
-    File textured;
-    textured.pbr() = {{"baseColorTexture", textured.texture(plain_png({255, 188, 0, 255}))},
-                      {"baseColorFactor", {0.5, 1, 1, 1}}};
-    CHECK(holds(import(textured).scene, "ks        = [0.5, 0.5029, 0.0]"));
-    File vertices;
-    vertices.primitive()["attributes"]["COLOR_0"] =
-        vertices.floats("VEC3", {1, 0.5f, 0, 1, 0.5f, 0, 0, 0.5f, 0, 0, 0.5f, 0});
-    const Imported imported = import(vertices);
-    CHECK(holds(imported.scene, "ks        = [0.5, 0.5, 0.0]"));
-    CHECK(holds(imported.result.err, "the highlights of a metal have the mean colour of its vertices"));
+TEST_CASE("import keeps the numbers of a metallic-roughness material and of its extensions") {
+    File plain;
+    plain.pbr() = {{"baseColorFactor", {1, 0.5, 0.25, 1}}, {"roughnessFactor", 0.3}};
+    const std::string scene = import(plain).scene;
+    CHECK(holds(scene, "color               = [255, 188, 137]\n"));
+    CHECK(material_in(scene) == "[object.material]\nka        = 0.5\nmetallic  = 1.0\nroughness = 0.3\n");
+
+    File file;
+    file.pbr() = {{"metallicFactor", 0.25}};
+    file.material()["extensions"] = {
+        {"KHR_materials_ior", {{"ior", 2}}},
+        {"KHR_materials_specular", {{"specularFactor", 0.5}, {"specularColorFactor", {1, 2, 0.5}}}},
+        {"KHR_materials_clearcoat", {{"clearcoatFactor", 0.75}, {"clearcoatRoughnessFactor", 0.125}}},
+        {"KHR_materials_sheen", {{"sheenColorFactor", {0.5, 0.5, 0.5}}, {"sheenRoughnessFactor", 0.4}}},
+        {"KHR_materials_anisotropy", {{"anisotropyStrength", 0.6}, {"anisotropyRotation", 7.8539816}}},
+        {"KHR_materials_iridescence",
+         {{"iridescenceFactor", 1},
+          {"iridescenceIor", 1.5},
+          {"iridescenceThicknessMaximum", 500},
+          {"iridescenceTexture", file.texture(plain_png({255, 255, 255, 255}))}}}};
+    const Imported imported = import(file);
+    const std::string material = material_in(imported.scene);
+    for (const char* const line :
+         {"ka                    = 0.7917\n", "metallic              = 0.25\n",
+          "roughness             = 1.0\n", "ior                   = 2.0\n", "specular              = 0.5\n",
+          "specular_color        = [1.0, 2.0, 0.5]\n", "clearcoat             = 0.75\n",
+          "clearcoat_roughness   = 0.125\n", "sheen_color           = 0.5\n", "sheen_roughness       = 0.4\n",
+          "anisotropy_strength   = 0.6\n", "anisotropy_rotation   = 90.0\n", "iridescence           = 1.0\n",
+          "iridescence_ior       = 1.5\n", "iridescence_thickness = 500.0\n"}) {
+        INFO(line << "in\n" << material);
+        CHECK(holds(material, line));
+    }
+    CHECK(holds(imported.result.err, "a texture of iridescence is left out; its factor applies everywhere"));
+    CHECK_FALSE(holds(imported.result.err, "extension"));
 }
 
-TEST_CASE("specular-glossiness materials are ggx with a diffuse colour and highlights") {
+TEST_CASE("import limits the numbers of materials to what the model allows") {
+    File file;
+    file.pbr() = {{"metallicFactor", 7}, {"roughnessFactor", -1}};
+    file.material()["extensions"] = {
+        {"KHR_materials_ior", {{"ior", 0.5}}},
+        {"KHR_materials_specular", {{"specularColorFactor", {1e9, -3, 0}}}},
+        {"KHR_materials_clearcoat", {{"clearcoatFactor", 1e300}}},
+        {"KHR_materials_sheen", {{"sheenColorFactor", "red"}}},
+        {"KHR_materials_anisotropy", {{"anisotropyStrength", 2}, {"anisotropyRotation", 1e6}}},
+        {"KHR_materials_iridescence", {{"iridescenceIor", 0}, {"iridescenceThicknessMaximum", -5}}}};
+    const std::string material = material_in(import(file).scene);
+    INFO(material);
+    CHECK(holds(material,
+                "metallic              = 1.0\nroughness             = 0.0\nior                   = 1.0\n"));
+    CHECK(holds(material, "specular_color        = [1000.0, 0.0, 0.0]\n"));
+    CHECK(holds(material, "iridescence_ior       = 1.0\niridescence_thickness = 0.0\n"));
+}
+
+TEST_CASE("specular-glossiness materials keep their diffuse colour, reflectance and gloss") {
     File file;
     file.json["extensionsUsed"] = {"KHR_materials_pbrSpecularGlossiness"};
     file.material()["extensions"] = {{"KHR_materials_pbrSpecularGlossiness",
@@ -160,10 +199,33 @@ TEST_CASE("specular-glossiness materials are ggx with a diffuse colour and highl
                                        {"specularFactor", {0.25, 0.25, 0.25}},
                                        {"glossinessFactor", 0.5}}}};
     const Imported imported = import(file);
-    CHECK(holds(material_in(imported.scene), "kd        = 0.75\nks        = 0.25\nroughness = 0.25\n"));
+    CHECK(holds(imported.scene, "model = \"specular-glossiness\""));
+    CHECK(holds(material_in(imported.scene), "specular_color = 0.25\nglossiness     = 0.5\n"));
     CHECK(imported.middle()[0] > 100);
     CHECK(imported.middle()[2] < 60);
     CHECK_FALSE(holds(imported.result.err, "KHR_materials_pbrSpecularGlossiness"));
+}
+
+TEST_CASE("unlit materials have their colour in the picture, under chosen lights and under the file's own") {
+    File file;
+    file.json["extensionsUsed"] = {"KHR_materials_unlit"};
+    file.material()["extensions"] = {{"KHR_materials_unlit", Json::object()}};
+    // Of 255, 128 and 29 in sRGB.
+    file.pbr() = {{"baseColorFactor", {1, 0.2158605, 0.0122866, 1}}};
+    const Pixel expected{255, 128, 29, 255};
+    const auto is_expected = [&](const Pixel& p) {
+        for (std::size_t k = 0; k < 3; ++k)
+            if (std::abs(p[k] - expected[k]) > 1) return false;
+        return true;
+    };
+    const Imported imported = import(file);
+    CHECK(holds(imported.scene, "model = \"unlit\""));
+    CHECK(is_expected(imported.middle()));
+    CHECK_FALSE(holds(imported.result.err, "KHR_materials_unlit"));
+    file.json["extensions"] = {{"KHR_lights_punctual", {{"lights", {{{"type", "directional"}}}}}}};
+    file.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    file.json["scenes"][0]["nodes"] = {0, 1};
+    CHECK(is_expected(import(file).middle()));
 }
 
 TEST_CASE("a material with a mask is cut out along its texture's opacity") {

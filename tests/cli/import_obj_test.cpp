@@ -184,6 +184,25 @@ TEST_CASE("an ambient colour of white, or none, becomes the surface's own: unlit
     CHECK(holds(folder.run("import a.obj -o -").out, "ka        = [0.1, 0.2, 0.3]\n"));
 }
 
+TEST_CASE("a material that says how rough or metallic it is becomes metallic-roughness") {
+    const Folder folder;
+    // 0.2158605 is 128 in sRGB.
+    folder.write(
+        "a.mtl",
+        "newmtl m\nKd 1 0.2158605 0\nKs 0.5 0.5 0.5\nNs 100\nPr 0.25\nPm 1.000000\nPs 0.125\nPc 0.5\n"
+        "Pcr 0.1\naniso 0.75\nanisor 0.25\n");
+    folder.write("a.obj", square("a.mtl", "m"));
+    const CommandResult imported = succeeded(folder.run("import a.obj -o -"));
+    INFO(imported.out);
+    CHECK(holds(imported.out, "color               = [255, 128, 0]\n"));
+    CHECK(holds(imported.out,
+                "metallic            = 1.0\nroughness           = 0.25\nclearcoat           = 0.5\n"
+                "clearcoat_roughness = 0.1\nsheen_color         = 0.125\n"));
+    CHECK(holds(imported.out, "anisotropy_strength = 0.75\nanisotropy_rotation = 90.0\n"));
+    CHECK_FALSE(holds(imported.err, "roughness"));
+    rendered(folder, "a.obj");
+}
+
 TEST_CASE("a texture's factor of zero becomes one") {
     const Folder folder;
     folder.write("red.ppm", red_ppm());

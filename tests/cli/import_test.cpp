@@ -239,9 +239,7 @@ TEST_CASE("import translates a glTF file's camera, lights and metallic-roughness
                 "name        = \"beam\"\ntype        = \"spot\"\ncolor       = [255, 128, 0]\n"
                 "intensity   = 10.0\nposition    = [0.0, 2.0, 3.0]\ndirection   = [0.0, -1.0, 0.0]\n"
                 "inner_angle = 10.0\nouter_angle = 30.0\n"));
-    // A metal: no diffuse light, and highlights of its colour; alpha is the square of the roughness.
-    CHECK(holds(result.out,
-                "kd        = 0.0\nks        = [1.0, 0.5, 0.25]\nroughness = 0.25\nior       = 100.0\n"));
+    CHECK(holds(result.out, "metallic  = 1.0\nroughness = 0.5\n"));
     CHECK(holds(result.err, "a normal map is left out"));
     expect(folder.run("render a.gltf -o a.ppm"), 0);
 }

@@ -126,6 +126,21 @@ TEST_CASE(
     CHECK_THROWS_AS(mesh_io::read_mtl("\xff\xfen"), mesh_io::BadFile);
 }
 
+TEST_CASE("mesh_io: an MTL file's physically based values are there if the file has them") {
+    const mesh_io::MaterialLibrary library = mesh_io::read_mtl(
+        "newmtl a\nKd 1 0 0\nnewmtl b\nPr 0.25\nPM 1\nPc 0.5\nPcr\naniso x\nanisor 0.125\n");
+    const mesh_io::MtlMaterial &a = library.materials[0], &b = library.materials[1];
+    CHECK_FALSE(a.roughness);
+    CHECK_FALSE(a.metallic);
+    CHECK(b.roughness == 0.25);
+    CHECK(b.metallic == 1);
+    CHECK(b.coat == 0.5);
+    CHECK_FALSE(b.coat_roughness);
+    CHECK_FALSE(b.anisotropy);
+    CHECK(b.rotation == 0.125);
+    CHECK(library.notes.empty());
+}
+
 TEST_CASE(
     "mesh_io: the textures of a PLY file are in its header's comments, which a part of the file contains") {
     const std::string header =

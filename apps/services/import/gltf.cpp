@@ -193,7 +193,7 @@ class Reader {
         if (result.type != "point" && result.type != "spot" && result.type != "directional")
             return model_.note("lights of other types than point, spot and directional are left out");
         if (const std::vector<double> color = numbers(light, "color", 3); !color.empty())
-            result.color = gltf::encoded(color);
+            result.color = encoded(color);
         // Candela's models have no factor of 1 / pi in what they reflect.
         constexpr double k_brightest = 1e30;  // so that sums of several stay finite
         result.intensity = std::clamp(number(light, "intensity", 1), 0.0, k_brightest) * std::numbers::inv_pi;

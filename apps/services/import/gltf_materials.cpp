@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "import/readers.h"
 
@@ -25,20 +27,63 @@ std::vector<double> factor_of(const Json& object, const char* name, std::size_t 
     return factor;
 }
 
-/// The reflectance of a dielectric at normal incidence: KHR_materials_specular.
-std::vector<double> dielectric_of(const Json& from) {
-    const Json& extensions = object_of(from, "extensions");
-    const double ior = number(object_of(extensions, "KHR_materials_ior"), "ior", 1.5);
-    const double usual = std::pow((ior - 1) / (ior + 1), 2);
-    const Json& specular = object_of(extensions, "KHR_materials_specular");
-    std::vector<double> color = numbers(specular, "specularColorFactor", 3);
-    if (color.empty()) color = {1, 1, 1};
-    const double factor = std::clamp(number(specular, "specularFactor", 1), 0.0, 1.0);
-    for (double& channel : color) channel = factor * std::clamp(usual * channel, 0.0, 1.0);
-    return color;
+/// A parameter, in four digits; one number if it is grey.
+void add(Material& to, const char* parameter, std::vector<double> value) {
+    for (double& x : value) x = rounded(x);
+    if (value.size() == 3 && value[0] == value[1] && value[1] == value[2]) value.resize(1);
+    to.values.emplace_back(parameter, std::move(value));
 }
 
-std::vector<double> alpha_of(double roughness) { return {std::max(rounded(roughness * roughness), 0.02)}; }
+/// The reflectance of a dielectric at normal incidence, its largest channel.
+double dielectric_of(const Json& extensions) {
+    const double ior = number(object_of(extensions, "KHR_materials_ior"), "ior", 1.5);
+    const Json& specular = object_of(extensions, "KHR_materials_specular");
+    const std::vector<double> color = numbers(specular, "specularColorFactor", 3);
+    const double tint = color.empty() ? 1 : *std::ranges::max_element(color);
+    return std::clamp(number(specular, "specularFactor", 1), 0.0, 1.0) *
+           std::clamp(std::pow((ior - 1) / (ior + 1), 2) * tint, 0.0, 1.0);
+}
+
+/// The parts of a material that extensions add, each only if the file has it.
+void add_extensions(const Json& extensions, Material& to) {
+    const auto add_number = [&](const Json& from, const char* key, const char* parameter, double otherwise,
+                                double low, double high) {
+        add(to, parameter, {std::clamp(number(from, key, otherwise), low, high)});
+    };
+    const auto add_color = [&](const Json& from, const char* key, const char* parameter, double high) {
+        std::vector<double> color = numbers(from, key, 3);
+        if (color.empty()) return;
+        for (double& channel : color) channel = std::clamp(channel, 0.0, high);
+        add(to, parameter, std::move(color));
+    };
+    constexpr double k_largest_index = 100;
+    if (const Json* const index = find(extensions, "KHR_materials_ior")) {
+        const double ior = number(*index, "ior", 1.5);  // 0: infinite
+        add(to, "ior", {ior <= 0 ? 0 : std::clamp(ior, 1.0, k_largest_index)});
+    }
+    if (const Json* const specular = find(extensions, "KHR_materials_specular")) {
+        add_number(*specular, "specularFactor", "specular", 1, 0, 1);
+        add_color(*specular, "specularColorFactor", "specular_color", 1000);
+    }
+    if (const Json* const coat = find(extensions, "KHR_materials_clearcoat")) {
+        add_number(*coat, "clearcoatFactor", "clearcoat", 0, 0, 1);
+        add_number(*coat, "clearcoatRoughnessFactor", "clearcoat_roughness", 0, 0, 1);
+    }
+    if (const Json* const sheen = find(extensions, "KHR_materials_sheen")) {
+        add_color(*sheen, "sheenColorFactor", "sheen_color", 1);
+        add_number(*sheen, "sheenRoughnessFactor", "sheen_roughness", 0, 0, 1);
+    }
+    if (const Json* const grain = find(extensions, "KHR_materials_anisotropy")) {
+        add_number(*grain, "anisotropyStrength", "anisotropy_strength", 0, 0, 1);
+        const double turns = number(*grain, "anisotropyRotation", 0) / (2 * std::numbers::pi);
+        add(to, "anisotropy_rotation", {360 * std::remainder(turns, 1)});
+    }
+    if (const Json* const film = find(extensions, "KHR_materials_iridescence")) {
+        add_number(*film, "iridescenceFactor", "iridescence", 0, 0, 1);
+        add_number(*film, "iridescenceIor", "iridescence_ior", 1.3, 1, k_largest_index);
+        add_number(*film, "iridescenceThicknessMaximum", "iridescence_thickness", 400, 0, 1e5);
+    }
+}
 
 /// Some exporters write a KHR_texture_transform that changes nothing.
 bool is_moved(const Json& info) {
@@ -52,14 +97,6 @@ bool is_moved(const Json& info) {
 
 }  // namespace
 
-Vector encoded(const std::vector<double>& linear) {
-    Vector color{};
-    for (std::size_t k = 0; k < 3; ++k)
-        color[k] =
-            std::round(255 * candela::linear_to_srgb(static_cast<float>(std::clamp(linear[k], 0.0, 1.0))));
-    return color;
-}
-
 Materials::Materials(Container& container, candela::Registry& registry, Model& model)
     : container_(container), json_(container.json()), registry_(registry), model_(model) {}
 
@@ -68,30 +105,33 @@ Material Materials::material(std::size_t index) {
     const std::string name = text_of(from, "name");
     const std::string shown =
         name.empty() ? fmt::format("material {}", index) : fmt::format("material '{}'", name);
-    const Json* const glossy = find(object_of(from, "extensions"), "KHR_materials_pbrSpecularGlossiness");
-    Material result =
-        glossy != nullptr ? specular_glossiness(from, *glossy, shown) : metallic_roughness(from, shown);
+    const Json& extensions = object_of(from, "extensions");
+    const Json* const glossy = find(extensions, "KHR_materials_pbrSpecularGlossiness");
+    Material result = find(extensions, "KHR_materials_unlit") != nullptr ? unlit(from, shown)
+                      : glossy != nullptr ? specular_glossiness(from, *glossy, shown)
+                                          : metallic_roughness(from, shown);
     result.name = name;
-    model_.note(
-        "metallic-roughness materials become 'ggx' with highlights of the reflectance at normal "
-        "incidence, which does not increase towards grazing angles");
     return result;
 }
 
-/// glTF 2.0, appendix B: a dielectric's diffuse and specular light, blended with a metal's.
+Material Materials::unlit(const Json& from, const std::string& name) {
+    const Json& pbr = object_of(from, "pbrMetallicRoughness");
+    const std::vector<double> base = factor_of(pbr, "baseColorFactor", 4);
+    Material result{.name = {}, .reflection = "unlit", .color = encoded(base)};
+    MeasuredImage* image = nullptr;
+    if (const Json* const info = find(pbr, "baseColorTexture")) image = show(*info, name, result);
+    cut_out(from, base[3], image, result);
+    return result;
+}
+
 Material Materials::metallic_roughness(const Json& from, const std::string& name) {
     const Json& pbr = object_of(from, "pbrMetallicRoughness");
-    std::vector<double> base = factor_of(pbr, "baseColorFactor", 4);
+    const std::vector<double> base = factor_of(pbr, "baseColorFactor", 4);
     double metallic = std::clamp(number(pbr, "metallicFactor", 1), 0.0, 1.0);
     double roughness = std::clamp(number(pbr, "roughnessFactor", 1), 0.0, 1.0);
-    const std::vector<double> dielectric = dielectric_of(from);
-    Material result{.name = {}, .reflection = "ggx", .color = encoded(base)};
-    std::vector<double> metal = base;
+    Material result{.name = {}, .reflection = "metallic-roughness", .color = encoded(base)};
     MeasuredImage* image = nullptr;
-    if (const Json* const info = find(pbr, "baseColorTexture")) {
-        image = show(*info, name, result);
-        for (std::size_t k = 0; image != nullptr && k < 3; ++k) metal[k] *= image->means.linear[k];
-    }
+    if (const Json* const info = find(pbr, "baseColorTexture")) image = show(*info, name, result);
     if (const Json* const info = find(pbr, "metallicRoughnessTexture")) {
         if (const MeasuredImage* const map = image_of(*info, name)) {
             roughness *= map->means.stored[1];
@@ -100,19 +140,12 @@ Material Materials::metallic_roughness(const Json& from, const std::string& name
                          "only the means of {} textures of metalness and roughness are used");
         }
     }
-    if (result.image && metallic > 0.05)
-        model_.count("tinted metals",
-                     "the highlights of a textured metal have the mean colour of its texture",
-                     "the highlights of {} textured metals have the mean colour of their textures");
-    const double diffuse = (1 - metallic) * (1 - *std::ranges::max_element(dielectric));
-    result.metal = {.share = metallic,
-                    .color = {metal[0], metal[1], metal[2]},
-                    .below = {dielectric[0], dielectric[1], dielectric[2]}};
-    result.values = {{"ka", {rounded(diffuse + 0.5 * metallic)}},
-                     {"kd", {rounded(diffuse)}},
-                     {"ks", result.metal.highlights()},
-                     {"roughness", alpha_of(roughness)},
-                     {"ior", {100}}};
+    const Json& extensions = object_of(from, "extensions");
+    // Metals mirror surroundings, which a scene does not have: ambient light stands for half of them.
+    add(result, "ka", {(1 - metallic) * (1 - dielectric_of(extensions)) + 0.5 * metallic});
+    add(result, "metallic", {metallic});
+    add(result, "roughness", {roughness});
+    add_extensions(extensions, result);
     cut_out(from, base[3], image, result);
     note_losses(from);
     return result;
@@ -123,7 +156,7 @@ Material Materials::specular_glossiness(const Json& from, const Json& extension,
     std::vector<double> specular = factor_of(extension, "specularFactor", 3);
     MeasuredImage* image = nullptr;
     double glossiness = std::clamp(number(extension, "glossinessFactor", 1), 0.0, 1.0);
-    Material result{.name = {}, .reflection = "ggx", .color = encoded(base)};
+    Material result{.name = {}, .reflection = "specular-glossiness", .color = encoded(base)};
     if (const Json* const info = find(extension, "diffuseTexture")) image = show(*info, name, result);
     if (const Json* const info = find(extension, "specularGlossinessTexture")) {
         if (const MeasuredImage* const map = image_of(*info, name)) {
@@ -134,12 +167,9 @@ Material Materials::specular_glossiness(const Json& from, const Json& extension,
         }
     }
     const double diffuse = 1 - *std::ranges::max_element(specular);
-    result.metal = {.share = 0, .color = {}, .below = {specular[0], specular[1], specular[2]}};
-    result.values = {{"ka", {rounded(diffuse + 0.5 * (1 - diffuse))}},
-                     {"kd", {rounded(diffuse)}},
-                     {"ks", result.metal.highlights()},
-                     {"roughness", alpha_of(1 - glossiness)},
-                     {"ior", {100}}};
+    add(result, "ka", {diffuse + 0.5 * (1 - diffuse)});
+    add(result, "specular_color", specular);
+    add(result, "glossiness", {glossiness});
     cut_out(from, base[3], image, result);
     note_losses(from);
     return result;
@@ -184,18 +214,29 @@ void Materials::note_losses(const Json& from) {
                      "the light that {} materials emit is left out");
     const Json& extensions = object_of(from, "extensions");
     for (const auto& [name, unused] : extensions.items()) {
-        constexpr std::array k_read = {"KHR_materials_ior", "KHR_materials_specular",
+        constexpr std::array k_read = {"KHR_materials_ior",
+                                       "KHR_materials_specular",
+                                       "KHR_materials_clearcoat",
+                                       "KHR_materials_sheen",
+                                       "KHR_materials_anisotropy",
+                                       "KHR_materials_iridescence",
                                        "KHR_materials_pbrSpecularGlossiness"};
         if (std::ranges::find(k_read, name) != k_read.end()) continue;
         model_.count(name, fmt::format("the extension '{}' of a material is left out", name),
                      fmt::format("the extension '{}' of {{}} materials is left out", name));
     }
-    const Json& specular = object_of(extensions, "KHR_materials_specular");
-    for (const char* const map : {"specularTexture", "specularColorTexture"})
-        if (specular.contains(map))
-            model_.count("specular maps",
-                         "a texture of specular reflectance is left out; its factor applies everywhere",
-                         "{} textures of specular reflectance are left out; their factors apply everywhere");
+    const auto note_maps = [&](const char* extension, const char* kind) {
+        for (const auto& [key, unused] : object_of(extensions, extension).items())
+            if (key.ends_with("Texture"))
+                model_.count(
+                    kind, fmt::format("a texture of {} is left out; its factor applies everywhere", kind),
+                    fmt::format("{{}} textures of {} are left out; their factors apply everywhere", kind));
+    };
+    note_maps("KHR_materials_specular", "specular reflectance");
+    note_maps("KHR_materials_clearcoat", "clear coats");
+    note_maps("KHR_materials_sheen", "sheen");
+    note_maps("KHR_materials_anisotropy", "anisotropy");
+    note_maps("KHR_materials_iridescence", "iridescence");
 }
 
 Materials::MeasuredImage* Materials::show(const Json& info, const std::string& material, Material& to) {

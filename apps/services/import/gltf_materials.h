@@ -15,9 +15,6 @@ import candela.plugins;
 
 namespace importing::gltf {
 
-/// Encodes a linear colour for a scene.
-Vector encoded(const std::vector<double>& linear);
-
 class Materials {
   public:
     /// Notes losses in `model` and adds pictures to it.
@@ -34,6 +31,7 @@ class Materials {
         std::optional<std::size_t> index{};   // index in the model, once a surface shows it
     };
 
+    Material unlit(const Json& from, const std::string& name);
     Material metallic_roughness(const Json& from, const std::string& name);
     Material specular_glossiness(const Json& from, const Json& extension, const std::string& name);
     void note_losses(const Json& from);

@@ -24,6 +24,14 @@ namespace fs = std::filesystem;
 
 namespace importing {
 
+Vector encoded(const std::vector<double>& linear) {
+    Vector color{};
+    for (std::size_t k = 0; k < 3; ++k)
+        color[k] =
+            std::round(255 * candela::linear_to_srgb(static_cast<float>(std::clamp(linear[k], 0.0, 1.0))));
+    return color;
+}
+
 void Model::note(std::string sentence) {
     if (std::ranges::find(notes, sentence) == notes.end()) notes.push_back(std::move(sentence));
 }
@@ -38,15 +46,6 @@ void Model::count(const std::string& kind, std::string one, std::string_view man
     notes[known->second.note] = std::move(sentence);
 }
 
-std::vector<double> Metal::highlights() const {
-    std::vector<double> result;
-    for (std::size_t k = 0; k < 3; ++k)
-        result.push_back(std::round(1e4 * (below[k] * (1 - share) + color[k] * share)) / 1e4);
-    const bool is_grey = result[0] == result[1] && result[1] == result[2];
-    if (is_grey) result.resize(1);
-    return result;
-}
-
 namespace {
 
 Model model_of(const Source& source, bool with_animation, candela::Registry& registry) {
@@ -57,47 +56,6 @@ Model model_of(const Source& source, bool with_animation, candela::Registry& reg
     Model model;
     model.parts.emplace_back();
     return model;
-}
-
-/// The factor that a part's vertex colours amount to: their linear mean.
-std::optional<Vector> mean_color(candela::ParamSet parameters, const Part& part,
-                                 candela::Registry& registry) {
-    parameters.set("part", part.selector);
-    const auto shape = registry.create<candela::Shape>("mesh", parameters, candela::ColorEncoding::srgb);
-    try {
-        const candela::Mesh mesh = candela::place(*shape, {.color = true}, {}).mesh;
-        if (mesh.color.empty()) return std::nullopt;
-        Vector sum{};
-        for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {
-            const candela::Vec3 color = mesh.color.span()[i];
-            sum = sum + Vector{color.x, color.y, color.z};
-        }
-        return (1 / static_cast<double>(mesh.vertex_count())) * sum;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception&) {
-        return std::nullopt;  // reported when the scene is read
-    }
-}
-
-void tint_metals(Model& model, const Source& source, candela::Registry& registry) {
-    candela::ParamSet parameters = registry.parameters(candela::PluginKind::shape, "mesh");
-    parameters.set("file", fs::absolute(source.file).string());
-    parameters.set("allow_outside", source.allows_outside);
-    // While this exists, the file is read only once.
-    const auto whole = registry.create<candela::Shape>("mesh", parameters, candela::ColorEncoding::srgb);
-    for (const Part& part : model.parts) {
-        Material* const material = part.material ? &model.materials[*part.material] : nullptr;
-        constexpr double k_least_share = 0.05;
-        if (material == nullptr || material->metal.share < k_least_share) continue;
-        const std::optional<Vector> mean = mean_color(parameters, part, registry);
-        if (!mean) continue;
-        for (std::size_t k = 0; k < 3; ++k) material->metal.color[k] *= (*mean)[k];
-        for (auto& [name, value] : material->values)
-            if (name == "ks") value = material->metal.highlights();
-        model.count("metals of vertices", "the highlights of a metal have the mean colour of its vertices",
-                    "the highlights of {} metals have the mean colours of their vertices");
-    }
 }
 
 /// Shows back faces of a model seen only from behind; a single-sided plane would otherwise give an empty
@@ -153,7 +111,8 @@ double brightness_for(const Model& model) {
     double brightest = 0;
     bool is_physical = false;
     for (const Material& material : model.materials) {
-        is_physical = is_physical || material.reflection == "ggx";
+        is_physical = is_physical || material.reflection == "metallic-roughness" ||
+                      material.reflection == "specular-glossiness";
         // Bright spots of a picture are somewhat brighter than its mean.
         constexpr double k_spots = 1.3;
         const double image =
@@ -169,6 +128,21 @@ double brightness_for(const Model& model) {
     }
     if (is_physical) return 0.55;
     return brightest > 1 ? 1 / brightest : 1;
+}
+
+/// Gives unlit materials their own brightness in the ambient light of the scene.
+void show_unlit(Model& model, const std::vector<Light>& lights) {
+    Vector ambient{};
+    for (const Light& light : lights)
+        for (std::size_t k = 0; k < 3 && light.type == "ambient"; ++k)
+            ambient[k] +=
+                light.intensity * double{candela::srgb_to_linear(static_cast<float>(light.color[k] / 255))};
+    for (Material& material : model.materials) {
+        if (material.reflection != "unlit") continue;
+        std::vector<double> brightness;
+        for (const double channel : ambient) brightness.push_back(1 / channel);
+        material.values = {{"ka", std::move(brightness)}};
+    }
 }
 
 void leave_out_what_is_too_far(Model& model) {
@@ -204,7 +178,6 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     model.is_z_up = is_z_up;
     move(model, geometry);
     leave_out_what_is_too_far(model);
-    if (geometry.has_colors) tint_metals(model, source, registry);
 
     Setting setting;
     setting.file = request.shown_file;
@@ -253,6 +226,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
                 "sight");
         setting.lights.push_back({.name = "sky", .type = "ambient", .intensity = k_little});
     }
+    show_unlit(model, setting.lights);
     animator.take_view(setting);
     animator.note();
     setting.room = room_for(animator.bounds(), setting.camera, setting.lights);

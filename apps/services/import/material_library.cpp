@@ -121,10 +121,49 @@ std::vector<double> MaterialLibraries::coefficients(const std::vector<double>& v
     return rgb;
 }
 
+bool MaterialLibraries::is_physical(const mesh_io::MtlMaterial& material) {
+    return material.roughness || material.metallic || material.sheen || material.coat;
+}
+
+void MaterialLibraries::become_metallic_roughness(const mesh_io::MtlMaterial& from, Material& to) {
+    const auto share = [&](const std::optional<double>& value, double otherwise) {
+        return std::round(1e4 * std::clamp(value.value_or(otherwise), 0.0, 1.0)) / 1e4;
+    };
+    to.reflection = "metallic-roughness";
+    std::vector<double> color = coefficients(from.kd, 0.8);
+    if (!from.texture.empty() && are_all(color, 0)) color = {1, 1, 1};
+    to.color = encoded(color);
+    const double metallic = share(from.metallic, 0);
+    // As for glTF: ambient light stands for half of the surroundings that a metal mirrors.
+    to.values = {{"ka", {std::round(1e4 * (0.96 - 0.46 * metallic)) / 1e4}},
+                 {"metallic", {metallic}},
+                 {"roughness", {share(from.roughness, 0.5)}}};
+    if (share(from.coat, 0) > 0) {
+        to.values.push_back({"clearcoat", {share(from.coat, 0)}});
+        to.values.push_back({"clearcoat_roughness", {share(from.coat_roughness, 0)}});
+    }
+    if (share(from.sheen, 0) > 0) {
+        to.values.push_back({"sheen_color", {share(from.sheen, 0)}});
+        to.values.push_back({"sheen_roughness", {0.5}});
+    }
+    if (share(from.anisotropy, 0) > 0) {
+        to.values.push_back({"anisotropy_strength", {share(from.anisotropy, 0)}});
+        to.values.push_back({"anisotropy_rotation", {360 * share(from.rotation, 0)}});
+    }
+}
+
 Material MaterialLibraries::material(const std::string& name) {
     const Description& description = *find(name);
     const mesh_io::MtlMaterial& d = description.material;
     Material material{.name = name};
+    if (!d.texture.empty()) {
+        material.image = image(name, description);
+        material.clamps = d.clamps;
+    }
+    if (is_physical(d)) {
+        become_metallic_roughness(d, material);
+        return material;
+    }
     if (d.illumination == 0)
         model_.note("materials of illumination model 0, a constant colour, are lit like the others");
     if (d.illumination > 2)
@@ -153,10 +192,6 @@ Material MaterialLibraries::material(const std::string& name) {
     for (const auto& [parameter, rgb] : {std::pair{"ka", &ka}, {"kd", &kd}, {"ks", &ks}})
         material.values.emplace_back(parameter, are_all(*rgb, (*rgb)[0]) ? std::vector{(*rgb)[0]} : *rgb);
     material.values.push_back({"shininess", {shininess}});
-    if (!d.texture.empty()) {
-        material.image = image(name, description);
-        material.clamps = d.clamps;
-    }
     return material;
 }
 

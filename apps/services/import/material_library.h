@@ -42,6 +42,9 @@ class MaterialLibraries {
     void read(const std::filesystem::path& file);
     /// Null if there is none.
     const Description* find(const std::string& name) const;
+    static bool is_physical(const mesh_io::MtlMaterial& material);
+    /// Fills in a material that says how rough or metallic it is.
+    void become_metallic_roughness(const mesh_io::MtlMaterial& from, Material& to);
     std::vector<double> coefficients(const std::vector<double>& value, double otherwise);
     std::optional<std::size_t> image(const std::string& material, const Description& of);
 

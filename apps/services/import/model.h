@@ -17,6 +17,9 @@ namespace importing {
 
 using Vector = std::array<double, 3>;
 
+/// Encodes a linear colour for a scene.
+Vector encoded(const std::vector<double>& linear);
+
 /// The columns of a transformation to the world.
 struct Placement {
     Vector x{1, 0, 0}, y{0, 1, 0}, z{0, 0, 1}, origin{};
@@ -58,15 +61,6 @@ struct Image {
     double brightness = 1;       // the mean of its pixels' largest channels, linear
 };
 
-/// The specular reflectance: a metal's colour, and a dielectric's.
-struct Metal {
-    double share = 0;  // of the metal, 0 to 1
-    Vector color{}, below{};
-
-    /// As a parameter: one number if it is grey.
-    std::vector<double> highlights() const;
-};
-
 struct Material {
     std::string name;  // may be empty
     std::string reflection = "phong";
@@ -76,7 +70,6 @@ struct Material {
     bool clamps = false;                                                // the picture is clamped at its edges
     std::optional<std::size_t> cutout{};                                // index in Model::cutouts
     double cutout_level = 0.5;
-    Metal metal{};
 };
 
 /// The side from which triangles are visible, as for the shape's parameter `sides`.

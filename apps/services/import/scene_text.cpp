@@ -94,10 +94,9 @@ class Writer {
     }
 
     void write_models() {
-        const auto count = [&](const char* name) {
-            return std::ranges::count(model_.materials, name, &Material::reflection);
-        };
-        reflection_ = count("ggx") > 0 ? "ggx" : "phong";
+        const auto special = std::ranges::find_if(
+            model_.materials, [](const Material& material) { return material.reflection != "phong"; });
+        reflection_ = special == model_.materials.end() ? "phong" : special->reflection;
         begin("[shading]");
         add("model", "\"phong\"");
         end();

@@ -119,7 +119,7 @@ class GltfTarget final : public Target {
 };
 
 constexpr Property k_properties[] = {{"exact-light", "directional, distributed, point"},
-                                     {"exact-reflection", "lambert, metallic-roughness"},
+                                     {"exact-reflection", "lambert, metallic-roughness, specular-glossiness"},
                                      {"exact-shading", "phong, angle-weighted, area-weighted, max-weighted"}};
 
 }  // namespace

@@ -236,9 +236,52 @@ material = {kd = 1, ka = 0}
     expect(folder.run("diff a.png b.png --tolerance 1"), 0);
 }
 
-TEST_CASE("target/gltf: an imported metallic-roughness material survives a round trip") {
+TEST_CASE("target/gltf: an unlit material is unlit, with no other extension") {
+    const Json material =
+        generated(folder_with_leaf(),
+                  std::string(k_scene).replace(k_scene.find("material ="), std::string::npos,
+                                               "reflection = \"unlit\"\n"),
+                  {"--approximate"})
+            .json["materials"][0];
+    CHECK(material["extensions"] == Json{{"KHR_materials_unlit", Json::object()}});
+    CHECK(is_near(material["pbrMetallicRoughness"]["baseColorFactor"][1], linear(100)));
+}
+
+TEST_CASE("target/gltf: metallic-roughness materials survive a round trip, with the same picture") {
+    const Folder folder;
+    const std::string scene = k_view + R"([[object]]
+name = "ball"
+type = "sphere"
+radius = 0.6
+position = [-0.7, 0, 0]
+color = [200, 100, 50]
+reflection = "metallic-roughness"
+material = {ka = 0, metallic = 0.5, roughness = 0.4, sheen_color = [0.5, 0.2, 0.1], sheen_roughness = 0.5, iridescence = 0.5, ior = 1.75, clearcoat = 1, clearcoat_roughness = 0.3}
+[[object]]
+name = "box"
+type = "cube"
+size = 0.8
+rotation = [0, 30, 0]
+position = [0.7, 0, 0]
+color = [90, 160, 220]
+reflection = "specular-glossiness"
+material = {ka = 0, specular_color = [0.3, 0.5, 0.1], glossiness = 0.4}
+)";
+    generated(folder, scene);
+    const std::string back = imported(folder);
+    INFO(back);
+    CHECK(holds(back, "sheen_color           = [0.5, 0.2, 0.1]\n"));
+    CHECK(holds(back, "clearcoat_roughness   = 0.3\n"));
+    CHECK(holds(back, "specular_color = [0.3, 0.5, 0.1]\n"));
+    succeeded(folder.run("render scene.toml -o a.png"));
+    succeeded(folder.run(
+        "render back.toml -o b.png --width 200 --height 100 --samples 1 --set light.sky.intensity=0"));
+    expect(folder.run("diff a.png b.png --tolerance 2"), 0);
+}
+
+TEST_CASE("target/gltf: a plastic of ggx, as candela import made them, is metallic-roughness again") {
     const Folder folder = folder_with_leaf();
-    // metallic 0.6 and roughness 0.5 of a base colour, as candela import converts them.
+    // metallic 0.6 and roughness 0.5 of a base colour, as candela import converted them until 0.2.
     const double m = 0.6, dielectric = 0.04;
     const auto specular = [&](double byte) { return dielectric * (1 - m) + m * linear(byte); };
     const std::string scene = std::string(k_scene).replace(

@@ -65,6 +65,10 @@ Surface surface_of(const ExportedReflection& model, const ExportedValues& values
     }
     const Vec3 diffuse = target::rgb_value(model, values, "kd").value_or(Vec3{1, 1, 1});
     const auto highlight = target::highlight_of(model, values);
+    if (id == "reflection/unlit") {
+        files.approximate("reflection/unlit has its colour also without ambient light");
+        return {.base = color};
+    }
     if (!highlight || highlight->specular == Vec3{}) {
         // Without the mirrored part, glTF's diffuse light is Lambert's.
         if (id != "reflection/lambert" && id != "reflection/phong" && id != "reflection/blinn-phong")
@@ -148,9 +152,15 @@ std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
     const ExportedValues& values = object.materials[object.reflection];
     const Rgb decoded_color = decoded(object.color, scene_.image.color_management);
     const Vec3 color{decoded_color.r, decoded_color.g, decoded_color.b};
+    const bool is_unlit = std::string_view(model.id) == "reflection/unlit";
     const auto exact = metallic_roughness_material(model, values, color, document_);
     Json material = exact ? *exact : approximate(model, values, color);
     material["name"] = object.label;
+    if (is_unlit) {
+        // The rest is for programs that do not read the extension.
+        material["extensions"]["KHR_materials_unlit"] = Json::object();
+        document_.use_extension("KHR_materials_unlit");
+    }
     if (object.color_texture != ExportedObject::k_no_texture)
         material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = texture_of(object);
     if (!is_closed) material["doubleSided"] = true;

@@ -41,10 +41,28 @@ class Extension {
     Json entries_ = Json::object();
 };
 
+/// KHR_materials_specular: a dielectric with an infinite index of refraction, which glTF writes as 0.
+Json specular_glossiness_material(const ExportedReflection& model, const ExportedValues& values, Vec3 color,
+                                  Document& document) {
+    const float glossiness = target::real_value(model, values, "glossiness").value_or(0.0f);
+    Json material = {{"pbrMetallicRoughness",
+                      {{"baseColorFactor", {color.x, color.y, color.z, 1}},
+                       {"metallicFactor", 0},
+                       {"roughnessFactor", 1 - glossiness}}}};
+    material["extensions"]["KHR_materials_ior"]["ior"] = 0;
+    document.use_extension("KHR_materials_ior");
+    Extension specular(model, values);
+    specular.color("specularColorFactor", "specular_color", 1);
+    specular.add_to(material, "KHR_materials_specular", document);
+    return material;
+}
+
 }  // namespace
 
 std::optional<Json> metallic_roughness_material(const ExportedReflection& model, const ExportedValues& values,
                                                 Vec3 color, Document& document) {
+    if (std::string_view(model.id) == "reflection/specular-glossiness")
+        return specular_glossiness_material(model, values, color, document);
     if (!is_metallic_roughness(model)) return std::nullopt;
     const auto real = [&](const char* parameter) {
         return target::real_value(model, values, parameter).value_or(0.0f);

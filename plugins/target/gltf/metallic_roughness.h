@@ -1,4 +1,5 @@
-// The model reflection/metallic-roughness in glTF, which has all of its parameters.
+// The models reflection/metallic-roughness and reflection/specular-glossiness in glTF, which has all of their
+// parameters.
 #pragma once
 
 #include <optional>

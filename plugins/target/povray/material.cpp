@@ -78,7 +78,8 @@ Finish finish_of(const ExportedReflection& model, const ExportedValues& values, 
         return target::rgb_value(model, values, parameter).value_or(Vec3{otherwise, otherwise, otherwise});
     };
     Finish finish{.ambient = rgb("ka", 0), .diffuse = rgb("kd", 1)};
-    if (id == "reflection/lambert") return finish;
+    if (id == "reflection/unlit") finish.diffuse = {};
+    if (id == "reflection/lambert" || id == "reflection/unlit") return finish;
     const auto exponent = target::real_value(model, values, "shininess");
     if (!exponent || (id != "reflection/phong" && id != "reflection/blinn-phong")) {
         approximate(model, values, color, finish, files);

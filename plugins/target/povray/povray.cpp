@@ -128,7 +128,7 @@ class PovRayTarget final : public Target {
 };
 
 constexpr Property k_properties[] = {{"exact-light", "ambient, directional, distributed, point, spot"},
-                                     {"exact-reflection", "lambert, phong, blinn-phong"},
+                                     {"exact-reflection", "lambert, phong, blinn-phong, unlit"},
                                      {"exact-shading", "phong, angle-weighted, area-weighted, max-weighted"}};
 
 }  // namespace

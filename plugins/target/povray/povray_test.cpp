@@ -400,6 +400,8 @@ reflection = ")" + model + "\"\nmaterial = {" +
     // A roughness of 0.5 is an alpha of 0.25: F / (4 alpha^2) = 4 F, and an exponent of 2 / alpha^2 - 2 = 30.
     CHECK(holds(finish("metallic = 1"), "diffuse 0 specular 4 roughness 0.03333"));
     CHECK(holds(finish("specular = 1"), "diffuse 1 specular 0.32 roughness 0.03333"));
+    CHECK(holds(finish("specular_color = 0.25, glossiness = 0.5", "specular-glossiness"),
+                "specular 1 roughness 0.03333"));
     CHECK(holds(finish("specular = 0.5", "metallic-roughness"),
                 "diffuse 1 specular 0.080000006 roughness 0.03333"));
 }
