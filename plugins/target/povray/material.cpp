@@ -55,6 +55,10 @@ void approximate(const ExportedReflection& model, const ExportedValues& values, 
             .alpha = principled->alpha,
             .facets = 1};
     }
+    if (std::string_view(model.id) == "reflection/specular-glossiness") {
+        const Vec3 mirrored = highlight->specular;
+        finish.diffuse = (1 - std::max({mirrored.x, mirrored.y, mirrored.z})) * Vec3{1, 1, 1};
+    }
     if (!highlight) {
         files.approximate(fmt::format("{} becomes Lambert's diffuse light", model.id).c_str());
         return;

@@ -401,7 +401,7 @@ reflection = ")" + model + "\"\nmaterial = {" +
     CHECK(holds(finish("metallic = 1"), "diffuse 0 specular 4 roughness 0.03333"));
     CHECK(holds(finish("specular = 1"), "diffuse 1 specular 0.32 roughness 0.03333"));
     CHECK(holds(finish("specular_color = 0.25, glossiness = 0.5", "specular-glossiness"),
-                "specular 1 roughness 0.03333"));
+                "diffuse 0.75 specular 1 roughness 0.03333"));
     CHECK(holds(finish("specular = 0.5", "metallic-roughness"),
                 "diffuse 1 specular 0.080000006 roughness 0.03333"));
 }
