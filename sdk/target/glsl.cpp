@@ -11,6 +11,7 @@
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
 #include "glsl_lights.h"
+#include "glsl_materials.h"
 
 CANDELA_EMBED(candela_target_trigonometry, CANDELA_TARGET_TEMPLATES "/trigonometry.glsl");
 CANDELA_EMBED(candela_target_lit, CANDELA_TARGET_TEMPLATES "/lit.glsl");
@@ -21,6 +22,8 @@ CANDELA_EMBED(candela_target_triangle_fragment, CANDELA_TARGET_TEMPLATES "/trian
 CANDELA_EMBED(candela_target_texture, CANDELA_TARGET_TEMPLATES "/texture.glsl");
 CANDELA_EMBED(candela_target_texture_vertex, CANDELA_TARGET_TEMPLATES "/texture_vertex.glsl");
 CANDELA_EMBED(candela_target_texture_fragment, CANDELA_TARGET_TEMPLATES "/texture_fragment.glsl");
+CANDELA_EMBED(candela_target_material_vertex, CANDELA_TARGET_TEMPLATES "/material_vertex.glsl");
+CANDELA_EMBED(candela_target_material_fragment, CANDELA_TARGET_TEMPLATES "/material_fragment.glsl");
 CANDELA_EMBED(candela_target_shadow_fragment, CANDELA_TARGET_TEMPLATES "/shadow_fragment.glsl");
 CANDELA_EMBED(candela_target_screen, CANDELA_TARGET_TEMPLATES "/screen.glsl");
 CANDELA_EMBED(candela_target_accumulate, CANDELA_TARGET_TEMPLATES "/accumulate.glsl");
@@ -44,12 +47,13 @@ std::string uniform_of(const ExportedModel& model, const char* name) {
 }
 
 /// Values derived from the parameters are computed once for each vertex or pixel, before the loop over its
-/// lights.
-std::string preparation_of(const ExportedModel& model, const char* name, const char* macro) {
+/// lights. `parameters`: the variable that has them.
+std::string preparation_of(const ExportedModel& model, const char* name, const char* macro,
+                           const char* parameters) {
     if (!has_function(model, "prepare")) return "";
     return fmt::format(
         "{0} {1}_constants;\nvoid prepare_{1}() {{ {1}_constants = {2}; }}\n#define PREPARED_{3}\n",
-        constants_type(model), name, prepared(model, name), macro);
+        constants_type(model), name, prepared(model, parameters), macro);
 }
 
 /// For programs in which not every model has a preparation.
@@ -63,8 +67,9 @@ std::string calls_of_preparations(const ExportedScene& scene) {
     return call_of(scene.shadings, "shading", "SHADING") + call_of(scene.reflections, "material", "MATERIAL");
 }
 
-std::string constants_name(const ExportedModel& model, const std::string& name) {
-    return has_function(model, "prepare") ? name + "_constants" : name;
+std::string constants_name(const ExportedModel& model, const std::string& name,
+                           const std::string& parameters) {
+    return has_function(model, "prepare") ? name + "_constants" : parameters;
 }
 
 std::string needs_text(const ExportedReflection& model) {
@@ -81,15 +86,24 @@ std::string horizon_text(const ExportedReflection& model) {
     return fmt::format("bool lights_below_horizon() {{ return {}; }}\n", is_below);
 }
 
-std::string reflection_text(const ExportedReflection& model, bool has_shadows) {
+/// Textures may give numbers of the material at a point.
+std::string own_material(const ExportedReflection& model) {
+    if (!has_parameters(model)) return "";
     return fmt::format(
-        "{}\n{}{}{}{}Reflected reflect_light(Surface s, vec3 to_light) {{ return {}; }}\n"
+        "#ifdef TEXTURED_MATERIAL\n{} own_material;\n#else\n#define own_material material\n#endif\n",
+        model.plugin->kernel.parameters);
+}
+
+std::string reflection_text(const ExportedReflection& model, bool has_shadows, bool is_textured) {
+    const char* const material = is_textured ? "own_material" : "material";
+    return fmt::format(
+        "{}\n{}{}{}{}{}Reflected reflect_light(Surface s, vec3 to_light) {{ return {}; }}\n"
         "vec3 reflect_ambient(Surface s) {{ return {}; }}\n",
-        model.plugin->kernel.text, uniform_of(model, "material"),
-        preparation_of(model, "material", "MATERIAL"), needs_text(model),
+        model.plugin->kernel.text, uniform_of(model, "material"), is_textured ? own_material(model) : "",
+        preparation_of(model, "material", "MATERIAL", material), needs_text(model),
         has_shadows ? horizon_text(model) : "",
-        call(model, "reflect", constants_name(model, "material"), "s, to_light"),
-        call(model, "reflect_ambient", constants_name(model, "material"), "s"));
+        call(model, "reflect", constants_name(model, "material", material), "s, to_light"),
+        call(model, "reflect_ambient", constants_name(model, "material", material), "s"));
 }
 
 std::string shading_text(const ExportedShading& model) {
@@ -99,9 +113,9 @@ std::string shading_text(const ExportedShading& model) {
         model.needs.triangle ? "#define NEEDS_TRIANGLE\nTriangle seen_triangle;\n" : "";
     return fmt::format("{}\n{}{}{}{}vec3 shading_normal(ShadingPoint p) {{ return {}; }}\n",
                        model.plugin->kernel.text, uniform_of(model, "shading"),
-                       preparation_of(model, "shading", "SHADING"), k_rates[static_cast<int>(model.rate)],
-                       triangle,
-                       call(model, "normal", constants_name(model, "shading"),
+                       preparation_of(model, "shading", "SHADING", "shading"),
+                       k_rates[static_cast<int>(model.rate)], triangle,
+                       call(model, "normal", constants_name(model, "shading", "shading"),
                             model.needs.triangle ? "p, seen_triangle" : "p"));
 }
 
@@ -155,30 +169,49 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
                  if_shadows("    seen_side = facing * point.face_normal;\n    seen_facing = facing;\n")}});
     parts.lights = lights_text(scene);
     for (const auto& model : scene.reflections)
-        parts.reflections.push_back(reflection_text(model, scene.has_shadows));
+        parts.reflections.push_back(reflection_text(model, scene.has_shadows, has_textured_materials(scene)));
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
     const bool needs_triangle = sees_triangles(scene), is_textured = !scene.textures.empty();
-    constexpr const char *k_triangle = "NEEDS_TRIANGLE", *k_texture = "TEXTURED";
+    const bool has_materials = has_textured_materials(scene);
+    constexpr const char *k_triangle = "NEEDS_TRIANGLE", *k_texture = "TEXTURED",
+                         *k_material = "TEXTURED_MATERIAL";
+    const char* const color = has_materials ? "TEXTURED_COLOR" : k_texture;
     parts.vertex =
-        lit + stage_text(
-                  candela_target_vertex,
-                  {{needs_triangle, candela_target_triangle_vertex, "PASS_TRIANGLE", k_triangle,
-                    "pass_triangle();"},
-                   {is_textured, candela_target_texture_vertex, "PASS_TEXTURE", k_texture, "pass_texture();"},
-                   {is_textured, "", "TEXTURE_COLOR", k_texture,
-                    "color *= color_texture_at(color_texture, uv, 0.0);"}},
-                  {{"CORNER", if_shadows("flat out vec3 at_corner;\n")},
-                   {"PASS_CORNER", if_shadows("    at_corner = position;\n")}});
-    parts.fragment = lit + stage_text(candela_target_fragment,
-                                      {{needs_triangle, candela_target_triangle_fragment, "READ_TRIANGLE",
-                                        k_triangle, "read_triangle();"},
-                                       {is_textured, candela_target_texture_fragment, "TEXTURE_COLOR",
-                                        k_texture, "color *= texture_seen(at_place, at_uv);"}},
-                                      {{"DEPTH_UNIFORM", depth.uniform},
-                                       {"DEPTH", depth.statement},
-                                       {"SHADOW_PLACE", if_shadows(candela_target_shadow_fragment)},
-                                       {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
-    if (is_textured) parts.texture = candela_target_texture + std::string(texture_kernel()) + "\n";
+        lit +
+        stage_text(
+            candela_target_vertex,
+            {{needs_triangle, candela_target_triangle_vertex, "PASS_TRIANGLE", k_triangle,
+              "pass_triangle();"},
+             {is_textured, candela_target_texture_vertex, "PASS_TEXTURE", k_texture, "pass_texture();"},
+             {is_textured, "", "TEXTURE_COLOR", color, "color *= color_texture_at(color_texture, uv, 0.0);"},
+             {has_materials, candela_target_material_vertex, "MATERIAL", k_material,
+              "lit_uv = uv;\n    find_material();"}},
+            {{"CORNER", if_shadows("flat out vec3 at_corner;\n")},
+             {"PASS_CORNER", if_shadows("    at_corner = position;\n")}});
+    parts.fragment =
+        lit + stage_text(candela_target_fragment,
+                         {{needs_triangle, candela_target_triangle_fragment, "READ_TRIANGLE", k_triangle,
+                           "read_triangle();"},
+                          {is_textured, candela_target_texture_fragment, "TEXTURE_COLOR", color,
+                           "color *= texture_seen(at_place, at_uv);"},
+                          {has_materials, candela_target_material_fragment, "MATERIAL", k_material,
+                           "lit_place = at_place;\n    lit_uv = at_uv;\n    find_material();"}},
+                         {{"DEPTH_UNIFORM", depth.uniform},
+                          {"DEPTH", depth.statement},
+                          {"SHADOW_PLACE", if_shadows(candela_target_shadow_fragment)},
+                          {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
+    if (is_textured) {
+        const std::string texture = filled(
+            candela_target_texture,
+            {{"UNIT",
+              has_materials ? "    int unit;      // whose texels it has: those of the colour are 0\n" : ""},
+             {"UNITS", material_units(scene)},
+             {"TEXEL", has_materials
+                           ? "texel_of_unit(t.unit, (level == 0 ? ivec2(0) : corner) + ivec2(x, y))"
+                           : "texelFetch(color_texels, (level == 0 ? ivec2(0) : corner) + ivec2(x, y), 0)"}});
+        parts.texture = texture + std::string(texture_kernel()) + "\n";
+    }
+    parts.materials = textured_materials(scene);
     parts.screen = candela_target_screen;
     parts.accumulate = candela_target_accumulate;
     parts.encode = "#define KERNEL\n" + std::string(tone_kernel()) + "\n" + candela_target_encode;

@@ -100,14 +100,16 @@ export class ProgramCache {
     }
 
     /** The program for an object of an appearance; it may still be compiling (Program.check waits). */
-    lighting({ shading, reflection, closed, isTextured }) {
-        const key = `${shading} ${reflection} ${closed} ${isTextured}`;
+    lighting({ shading, reflection, closed, isTextured, hasColorTexture, material }) {
+        const key = `${shading} ${reflection} ${closed} ${hasColorTexture} ${material}`;
         if (!this.programs.has(key)) {
             const { shaders, shading_models, reflection_models } = this.scene;
             const s = shading_models[shading], r = reflection_models[reflection];
             const common =
                 (closed ? "" : "#define TWO_SIDED\n") +
-                [shaders.prelude, isTextured ? shaders.texture : "", shaders.lights, r.glsl, s.glsl, ""].join("\n");
+                (material === null ? "" : "#define TEXTURED_MATERIAL\n") + (hasColorTexture ? "#define TEXTURED_COLOR\n" : "") +
+                [shaders.prelude, isTextured ? shaders.texture : "", shaders.lights, r.glsl, s.glsl,
+                    material === null ? "" : shaders.materials[material], ""].join("\n");
             const title = `${r.title} with the shading model ${s.title}`;
             this.programs.set(key, this.compiled(title, common + shaders.vertex, common + shaders.fragment));
         }

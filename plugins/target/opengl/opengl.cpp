@@ -87,7 +87,7 @@ class OpenGlWriter {
             {"OBJECTS", objects},
             {"PICTURE_FILE", std::string(image_file_source())}};
         const Values shadows = shadow_values(scene_);
-        for (const Values& more : {about, texture_values(scene_, glsl.texture), shadows})
+        for (const Values& more : {about, texture_values(scene_, glsl), shadows})
             values.insert(values.end(), more.begin(), more.end());
         write(files, "scene.cpp", filled(candela_opengl_scene, views_of(values)));
         values.emplace_back("ARRAYS", arrays_);
@@ -243,7 +243,7 @@ class OpenGlWriter {
                            object.shading, object.reflection,
                            all_uniforms(scene_.reflections, object.materials),
                            all_uniforms(scene_.shadings, object.shadings), is_closed, index,
-                           texture_members(scene_, object) + shadow_members(scene_, object, is_solid));
+                           texture_members(scene_, index) + shadow_members(scene_, object, is_solid));
     }
 
     /// Returns whether the object is closed, and whether it is solid.
@@ -290,7 +290,12 @@ class OpenGlTarget final : public Target {
     explicit OpenGlTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.triangle = true, .vertex_colors = true, .textures = true, .shadows = true, .display = true};
+        return {.triangle = true,
+                .vertex_colors = true,
+                .textures = true,
+                .textured_numbers = true,
+                .shadows = true,
+                .display = true};
     }
     void write(const ExportedScene& scene, FileSink& files) const override { OpenGlWriter(scene).run(files); }
     const char* main_file() const noexcept override { return "scene.cpp"; }

@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "candela/embed.h"
 #include "candela/target/glsl.h"
@@ -38,10 +40,37 @@ constexpr const char* k_load =
     "        glActiveTexture(GL_TEXTURE4);\n"
     "        for (const char* const file : k_textures) textures_.push_back(make_texture(file));\n";
 
+constexpr const char* k_material_members =
+    "    int material;                                            // in k_materials; -1: no textures\n"
+    "    std::vector<std::pair<std::size_t, bool>> pictures;  // of its material, and whether they repeat\n";
+
 constexpr const char* k_bind =
+    "            set_pixel(program, observer, view, height);\n"
     "            if (object.texture >= 0)\n"
     "                bind(textures_[static_cast<std::size_t>(object.texture)], object.texture_repeats, "
-    "program, observer, view, height);\n";
+    "program, \"color_texels\", \"color_texture\", 4);\n";
+
+/// Even a sampler that is not read must not refer to the picture that is being drawn.
+std::string bind_materials(std::size_t most) {
+    return fmt::format(
+        "            if (object.material >= 0 && reflection == object.reflection) {{\n"
+        "                if (object.texture < 0) set(program, {{\"color_texels\", Uniform::whole, {{6, 0, "
+        "0}}}});\n"
+        "                for (std::size_t k = 0; k < {}; ++k) {{\n"
+        "                    const bool is_read = k < object.pictures.size();\n"
+        "                    const auto [texture, repeats] = object.pictures[is_read ? k : 0];\n"
+        "                    const std::string number = std::to_string(k), name = \"material_texture_\" + "
+        "number;\n"
+        "                    bind(textures_[texture], repeats, program, \"material_texels_\" + number, name, "
+        "6 + "
+        "static_cast<int>(k));\n"
+        "                    set(program, {{(name + \".unit\").c_str(), Uniform::whole, "
+        "{{static_cast<float>(k + "
+        "1), 0, 0}}}});\n"
+        "                }}\n"
+        "            }}\n",
+        most);
+}
 
 std::string declarations_of(const ExportedScene& scene) {
     std::string files;
@@ -50,30 +79,69 @@ std::string declarations_of(const ExportedScene& scene) {
     return filled(candela_opengl_textures, {{"FILE", std::string(texture_file_source())}, {"FILES", files}});
 }
 
+/// The texts that objects' programs have after their models.
+std::string materials_of(const std::vector<std::string>& materials) {
+    std::string text = "const std::vector<std::string> k_materials = {\n";
+    for (const std::string& material : materials)
+        if (!material.empty()) text += fmt::format("    {},\n", raw(material));
+    return text + "};\n";
+}
+
 }  // namespace
 
-Values texture_values(const ExportedScene& scene, const std::string& shader) {
+Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
+    const bool has_materials =
+        std::ranges::any_of(glsl.materials, [](const std::string& text) { return !text.empty(); });
+    std::size_t most_pictures = 0;
+    for (const ExportedObject& object : scene.objects)
+        most_pictures = std::max(most_pictures, material_pictures(object).size());
+    const auto if_materials = [&](std::string text) {
+        return has_materials ? std::move(text) : std::string();
+    };
     const bool has_textures = !scene.textures.empty();
     const auto if_textures = [&](std::string text) { return has_textures ? std::move(text) : std::string(); };
     const std::string corners = sees_triangles(scene) ? "" : k_put_corners;
-    return {{"TEXTURE_SHADER", if_textures(fmt::format("const std::string k_texture = {};\n", raw(shader)))},
-            {"TEXTURE_MEMBERS", if_textures(k_members)},
-            {"TEXTURES", has_textures ? declarations_of(scene) : ""},
-            {"PUT_TEXTURE", if_textures(corners + k_put_edges)},
-            {"SKIP_ABSENT", if_textures("        if (all[i].empty()) continue;\n")},
-            {"FIND_TEXTURES", if_textures("        look_for_textures_at(argv[0]);\n")},
-            {"LOAD_TEXTURES", if_textures(k_load)},
-            {"BIND_TEXTURE", if_textures(k_bind)},
-            {"IS_TEXTURED", if_textures(", object.texture >= 0")},
-            {"TEXTURE_TEXT", if_textures(" (object.texture < 0 ? \"\" : k_texture) +")},
-            {"TEXTURED_KEY", if_textures(", bool")},
-            {"TEXTURES_HELD", if_textures("    std::vector<Texture> textures_;\n")}};
+    return {
+        {"TEXTURE_SHADER",
+         if_textures(fmt::format("const std::string k_texture = {};\n", raw(glsl.texture))) +
+             if_materials(materials_of(glsl.materials))},
+        {"TEXTURE_MEMBERS", if_textures(k_members) + if_materials(k_material_members)},
+        {"TEXTURES", has_textures ? declarations_of(scene) : ""},
+        {"PUT_TEXTURE", if_textures(corners + k_put_edges)},
+        {"SKIP_ABSENT", if_textures("        if (all[i].empty()) continue;\n")},
+        {"FIND_TEXTURES", if_textures("        look_for_textures_at(argv[0]);\n")},
+        {"LOAD_TEXTURES", if_textures(k_load)},
+        {"BIND_TEXTURE", if_textures(k_bind) + if_materials(bind_materials(most_pictures))},
+        {"MATERIAL_OF",
+         if_materials(
+             "        const int material = reflection == object.reflection ? object.material : -1;\n")},
+        {"IS_TEXTURED", if_textures(", object.texture >= 0") + if_materials(", material")},
+        {"TEXTURE_TEXT",
+         has_materials
+             ? " (object.texture < 0 && material < 0 ? \"\" : k_texture) + (object.texture < 0 ? \"\" : "
+               "\"#define TEXTURED_COLOR\\n\") +\n                                   (material < 0 ? \"\" : "
+               "\"#define TEXTURED_MATERIAL\\n\") +"
+             : if_textures(" (object.texture < 0 ? \"\" : k_texture) +")},
+        {"MATERIAL_TEXT",
+         if_materials(" + (material < 0 ? \"\" : k_materials[static_cast<std::size_t>(material)])")},
+        {"TEXTURED_KEY", if_textures(", bool") + if_materials(", int")},
+        {"TEXTURES_HELD", if_textures("    std::vector<Texture> textures_;\n")}};
 }
 
-std::string texture_members(const ExportedScene& scene, const ExportedObject& object) {
+std::string texture_members(const ExportedScene& scene, std::size_t index) {
     if (scene.textures.empty()) return "";
-    if (object.color_texture == ExportedObject::k_no_texture) return ", -1, true";
-    return fmt::format(", {}, {}", object.color_texture, object.color_texture_repeats);
+    const ExportedObject& object = scene.objects[index];
+    const auto is_textured = [](const ExportedObject& o) { return !o.textured_numbers.empty(); };
+    std::string text = object.color_texture == ExportedObject::k_no_texture
+                           ? ", -1, true"
+                           : fmt::format(", {}, {}", object.color_texture, object.color_texture_repeats);
+    if (std::ranges::none_of(scene.objects, is_textured)) return text;
+    std::string pictures;
+    for (const MaterialPicture& picture : material_pictures(object))
+        pictures +=
+            fmt::format("{}{{{}, {}}}", pictures.empty() ? "" : ", ", picture.texture, picture.repeats);
+    const auto before = std::ranges::count_if(scene.objects.first(index), is_textured);
+    return text + fmt::format(", {}, {{{}}}", is_textured(object) ? before : -1, pictures);
 }
 
 }  // namespace candela::opengl_target

@@ -1,18 +1,19 @@
 // Textures of a generated OpenGL program.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 #include "candela/target.h"
+#include "candela/target/glsl.h"
 #include "candela/target/text_template.h"
 
 namespace candela::opengl_target {
 
-/// The parts of the program's template that concern textures; empty in a scene without any. `shader`:
-/// GlslParts::texture.
-target::Values texture_values(const ExportedScene& scene, const std::string& shader);
+/// The parts of the program's template that concern textures; empty in a scene without any.
+target::Values texture_values(const ExportedScene& scene, const target::GlslParts& glsl);
 
-/// The end of an object's initializer: ", 0, true".
-std::string texture_members(const ExportedScene& scene, const ExportedObject& object);
+/// The end of object number `index`'s initializer: ", 0, true".
+std::string texture_members(const ExportedScene& scene, std::size_t index);
 
 }  // namespace candela::opengl_target

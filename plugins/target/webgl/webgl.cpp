@@ -177,6 +177,14 @@ Json mesh_json(const ExportedScene& scene, const ExportedMesh& mesh, PageArrays&
             {"color", put(mesh.color)}};
 }
 
+/// The pictures that a material reads, each with whether it repeats.
+Json pictures_json(const ExportedObject& object) {
+    Json pictures = Json::array();
+    for (const MaterialPicture& picture : material_pictures(object))
+        pictures.push_back({picture.texture, picture.repeats});
+    return pictures;
+}
+
 Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arrays) {
     const ExportedObject& object = scene.objects[index];
     Json materials = Json::object(), shadings = Json::object();
@@ -204,6 +212,8 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         {"texture",
          object.color_texture == ExportedObject::k_no_texture ? Json() : Json(object.color_texture)},
         {"texture_repeats", object.color_texture_repeats},
+        {"material", object.textured_numbers.empty() ? Json() : Json(index)},
+        {"material_pictures", pictures_json(object)},
         {"mesh", mesh_json(scene, mesh, arrays)}};
     if (scene.has_shadows) {
         json["receives_shadows"] = object.receives_shadows;
@@ -323,6 +333,7 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
                   {{"prelude", glsl.prelude},
                    {"library", whole_glsl_prelude()},
                    {"texture", glsl.texture},
+                   {"materials", glsl.materials},
                    {"lights", glsl.lights},
                    {"vertex", glsl.vertex},
                    {"fragment", glsl.fragment},
@@ -352,7 +363,12 @@ class WebGlTarget final : public Target {
     explicit WebGlTarget(const sdk::NoParams&) {}
 
     TargetAbilities abilities() const noexcept override {
-        return {.triangle = true, .vertex_colors = true, .textures = true, .shadows = true, .display = true};
+        return {.triangle = true,
+                .vertex_colors = true,
+                .textures = true,
+                .textured_numbers = true,
+                .shadows = true,
+                .display = true};
     }
     void write(const ExportedScene& scene, FileSink& files) const override {
         PageArrays arrays;

@@ -30,6 +30,7 @@ void main() {
 #endif
     vec3 color = at_vertex_color;
 @TEXTURE_COLOR@
+@MATERIAL@
     intensity = vec4(intensity_at(@PLACE@, point, color, facing), 1.0);
 #else
     intensity = vec4(gl_FrontFacing ? front : back, 1.0);

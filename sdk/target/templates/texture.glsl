@@ -7,15 +7,15 @@ struct ColorTexture {
     int height;
     int levels;
     bool repeats;  // beyond its edges; otherwise the edge colours continue
-};
+@UNIT@};
 uniform ColorTexture color_texture;
-int color_texture_levels(ColorTexture t) { return t.levels; }
+@UNITS@int color_texture_levels(ColorTexture t) { return t.levels; }
 int color_texture_width(ColorTexture t, int level) { return max(t.width >> level, 1); }
 int color_texture_height(ColorTexture t, int level) { return max(t.height >> level, 1); }
 vec3 color_texture_texel(ColorTexture t, int level, int x, int y) {
     int longer = max(t.width, t.height);
     int along = longer - (longer >> max(level - 1, 0));
     ivec2 corner = t.width >= t.height ? ivec2(along, t.height) : ivec2(t.width, along);
-    return vec3(texelFetch(color_texels, (level == 0 ? ivec2(0) : corner) + ivec2(x, y), 0).rgb) / 65535.0;
+    return vec3(@TEXEL@.rgb) / 65535.0;
 }
 

@@ -43,6 +43,7 @@ void main() {
 #else
     vec3 color = vertex_color;
 @TEXTURE_COLOR@
+@MATERIAL@
     ShadingPoint point = ShadingPoint(face_normal, vertex_normal, barycentric, uv, dpdu, dpdv);
     front = intensity_at(place, point, color, 1.0);
 #ifdef TWO_SIDED

@@ -443,10 +443,11 @@ class Renderer {
     }
 
     GLuint program_for(const Object& object, std::size_t shading, std::size_t reflection) {
+@MATERIAL_OF@
         GLuint& program = programs_[{shading, reflection, object.is_closed@IS_TEXTURED@}];
         if (program != 0) return program;
         const std::string common = k_header + (object.is_closed ? "" : "#define TWO_SIDED\n") + k_prelude +@TEXTURE_TEXT@ k_lights +
-                                   k_reflections[reflection].glsl + k_shadings[shading].glsl;
+                                   k_reflections[reflection].glsl + k_shadings[shading].glsl@MATERIAL_TEXT@;
         program = linked(common + k_vertex, common + k_fragment);
         glUseProgram(program);
         set(program, {"light_table", Uniform::whole, {2, 0, 0}});

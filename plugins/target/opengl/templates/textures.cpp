@@ -43,16 +43,20 @@ Texture make_texture(const std::string& file) {
     return texture;
 }
 
-// Binds a texture for a program's shaders.
-void bind(const Texture& texture, bool repeats, GLuint program, const Observer& observer, const View& view, int height) {
-    glActiveTexture(GL_TEXTURE4);
+// Binds a texture for a program's shaders, to a unit of its own.
+void bind(const Texture& texture, bool repeats, GLuint program, const std::string& texels, const std::string& name, int unit) {
+    glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
     glBindTexture(GL_TEXTURE_2D, texture.name);
-    const auto set_whole = [&](const char* name, int value) { set(program, {name, Uniform::whole, {static_cast<float>(value), 0, 0}}); };
-    set_whole("color_texels", 4);
-    set_whole("color_texture.width", texture.width);
-    set_whole("color_texture.height", texture.height);
-    set_whole("color_texture.levels", texture.levels);
-    set_whole("color_texture.repeats", repeats ? 1 : 0);
+    const auto set_whole = [&](const std::string& of, int value) { set(program, {of.c_str(), Uniform::whole, {static_cast<float>(value), 0, 0}}); };
+    set_whole(texels, unit);
+    set_whole(name + ".width", texture.width);
+    set_whole(name + ".height", texture.height);
+    set_whole(name + ".levels", texture.levels);
+    set_whole(name + ".repeats", repeats ? 1 : 0);
+}
+
+// How the line of sight moves from pixel to pixel.
+void set_pixel(GLuint program, const Observer& observer, const View& view, int height) {
     const float all = observer.is_perspective ? 2 * std::tan(0.5f * observer.size * 0.0174532925f) : observer.size;
     const float pixel = all / static_cast<float>(height);
     set(program, {"pixel_right", Uniform::vector, pixel * view.right});

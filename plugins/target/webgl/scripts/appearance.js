@@ -78,7 +78,9 @@ export function appearanceOf(settings) {
         const shadingModel = scene.shading_models[shading];
         return {
             shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
-            isTextured: object.texture !== null,
+            hasColorTexture: object.texture !== null,
+            material: reflection === object.reflection ? object.material : null,
+            isTextured: object.texture !== null || object.material !== null,
             uniforms: [
                 ["object_index", { kind: "int", value: i }],
                 ["is_shadowed", { kind: "int", value: hasShadows && object.receives_shadows ? 1 : 0 }],

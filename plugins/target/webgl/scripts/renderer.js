@@ -13,6 +13,7 @@ const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
 const TABLES_UNIT = 3;
 const TEXTURE_UNIT = 4;
 const SHADOWS_UNIT = 5;
+const MATERIAL_UNIT = 6;  // and those after it
 
 /** Turns an appearance (observer, lights, objects) into pixels: one pass per sample, their weighted sum, its encoding. */
 export class Renderer {
@@ -28,6 +29,7 @@ export class Renderer {
         this.textures = scene.textures.map((texture) =>
             previous?.textures.find((one) => one.isOf(texture, this.isSrgb)) ?? new Texture(gl, texture, this.isSrgb));
         for (const texture of this.textures) texture.users += 1;
+        this.mostPictures = Math.max(0, ...scene.objects.map((object) => object.material_pictures.length));
         this.shadows = this.shadowsOf(scene, previous);
         this.bounds = this.meshes.map((mesh) => mesh.bounds);
         this.lights = new LightTable(gl, scene);
@@ -138,17 +140,26 @@ export class Renderer {
                 for (const [name, uniform] of Object.entries(frameUniforms)) program.setUniform(name, uniform);
             }
             for (const [name, uniform] of object.uniforms) program.setUniform(name, uniform);
-            for (const [name, uniform] of this.textureUniforms(i)) program.setUniform(name, uniform);
+            for (const [name, uniform] of this.textureUniforms(i, object)) program.setUniform(name, uniform);
             object.closed ? gl.enable(gl.CULL_FACE) : gl.disable(gl.CULL_FACE);
             this.meshes[i].draw(object);
         });
         gl.disable(gl.SCISSOR_TEST);
     }
 
-    /** Binds the texture of an object that has one; returns the uniforms with which it is read. */
-    textureUniforms(index) {
-        const { texture, texture_repeats } = this.scene.objects[index];
-        return texture === null ? [] : Object.entries(this.textures[texture].bind(TEXTURE_UNIT, texture_repeats));
+    /** Binds the textures of an object that has some; returns the uniforms with which they are read. */
+    textureUniforms(index, { material }) {
+        const { texture, texture_repeats, material_pictures } = this.scene.objects[index];
+        const uniforms = texture === null ? {} : this.textures[texture].bind(TEXTURE_UNIT, texture_repeats);
+        if (material !== null) {
+            // Even a sampler that is not read must not refer to the picture that is being drawn.
+            if (texture === null) uniforms.color_texels = { kind: "int", value: MATERIAL_UNIT };
+            for (let i = material_pictures.length; i < this.mostPictures; ++i)
+                uniforms[`material_texels_${i}`] = { kind: "int", value: MATERIAL_UNIT };
+            material_pictures.forEach(([picture, repeats], i) => Object.assign(uniforms,
+                this.textures[picture].bind(MATERIAL_UNIT + i, repeats, `material_texels_${i}`, `material_texture_${i}`, i + 1)));
+        }
+        return Object.entries(uniforms);
     }
 
     /** Calls back once the graphics have finished all submitted work; never if they are lost first. */

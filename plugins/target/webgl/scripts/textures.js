@@ -32,13 +32,19 @@ export class Texture {
         if (this.users === 0) this.gl.deleteTexture(this.texture);
     }
 
-    /** Binds the texture to a unit; returns the uniforms with which it is read. `repeats`: whether it repeats beyond its edges. */
-    bind(unit, repeats) {
+    /**
+     * Binds the texture to a unit; returns the uniforms with which it is read. `repeats`: whether it repeats beyond its edges;
+     * `sampler` and `name`: the uniforms; `number`: of the picture in its material, from 1 on, or 0.
+     */
+    bind(unit, repeats, sampler = "color_texels", name = "color_texture", number = 0) {
         const { gl, levels, picture: { width, height } } = this;
         gl.activeTexture(gl.TEXTURE0 + unit);
         gl.bindTexture(gl.TEXTURE_2D, this.texture);
         gl.activeTexture(gl.TEXTURE0);
-        const wholes = { color_texels: unit, "color_texture.width": width, "color_texture.height": height, "color_texture.levels": levels, "color_texture.repeats": repeats ? 1 : 0 };
+        const wholes = {
+            [sampler]: unit, [`${name}.width`]: width, [`${name}.height`]: height, [`${name}.levels`]: levels,
+            [`${name}.repeats`]: repeats ? 1 : 0, [`${name}.unit`]: number,
+        };
         return Object.fromEntries(Object.entries(wholes).map(([name, value]) => [name, { kind: "int", value }]));
     }
 }

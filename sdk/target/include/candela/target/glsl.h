@@ -12,11 +12,17 @@ namespace candela::target {
 /// An object's vertex shader is: header, "#define TWO_SIDED" if it is open, prelude, texture if it has one,
 /// lights, its reflection model, its shading model, vertex. The fragment shader is built in the same way. The
 /// others are for passes over the whole screen.
+///
+/// If an object of the scene has a material with textures, `texture` is for objects that have such a material
+/// or a texture of their colour, or both, and is followed by "#define TEXTURED_COLOR" for the latter. An
+/// object with a material that has textures, and its own reflection model, has "#define TEXTURED_MATERIAL"
+/// before that model, and its text of `materials` behind its shading model.
 struct GlslParts {
     std::string prelude;
     std::string texture;  // empty unless an object of the scene has one
     std::string lights;
     std::vector<std::string> reflections, shadings;  // in the scene's order
+    std::vector<std::string> materials;              // of objects; empty unless textures give numbers of it
     std::string vertex, fragment;
     std::string screen, accumulate, encode;
 };
@@ -80,6 +86,18 @@ bool sees_triangles(const ExportedScene& scene);
 
 /// The blocks of the scene's light models.
 std::vector<LightBlock> light_blocks(const ExportedScene& scene);
+
+/// A picture that an object's material reads. Shaders read number i of them from `material_texels_<i>`, which
+/// is described by `material_texture_<i>` like `color_texture`, with `unit` = i + 1 as well.
+struct MaterialPicture {
+    std::size_t texture = 0;  // index into ExportedScene::textures
+    bool repeats = true;
+
+    friend bool operator==(const MaterialPicture&, const MaterialPicture&) = default;
+};
+std::vector<MaterialPicture> material_pictures(const ExportedObject& object);
+/// Shaders have 16 texture units; lights, tables, shadows and passes over the screen use some.
+constexpr std::size_t k_most_material_pictures = 9;
 
 /// "face", "vertex", "fragment".
 const char* rate_name(ShadingRate rate);

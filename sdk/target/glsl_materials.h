@@ -1,0 +1,21 @@
+// Materials with textures, as parts of shaders.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "candela/target.h"
+
+namespace candela::target {
+
+/// Whether an object of the scene has such a material.
+bool has_textured_materials(const ExportedScene& scene);
+
+/// For each object, GlslParts::materials.
+std::vector<std::string> textured_materials(const ExportedScene& scene);
+
+/// The part of GlslParts::texture that reads the pictures of materials, which needs a member `unit` of
+/// ColorTexture; empty if no object has one.
+std::string material_units(const ExportedScene& scene);
+
+}  // namespace candela::target
