@@ -2,6 +2,25 @@
 import scenes
 from generated import SMALL_WINDOW, Generated, PageTest, options_for
 
+# Some parameters of reflection models have no visible effect at the defaults of the others: they are tried with these values.
+NEEDS = {
+    "beckmann.masking": {"ks": 1, "roughness": 1, "ior": 100},
+    "disney.sheen_tint": {"sheen": 1},
+    "disney.clearcoat_gloss": {"clearcoat": 1},
+    "metallic-roughness.clearcoat_roughness": {"clearcoat": 1},
+    "metallic-roughness.sheen_roughness": {"sheen_color": 0.8},
+    "metallic-roughness.anisotropy_rotation": {"anisotropy_strength": 0.8},
+    "metallic-roughness.iridescence_ior": {"iridescence": 1},
+    "metallic-roughness.iridescence_thickness": {"iridescence": 1},
+}
+
+# Sheen and masking show where light grazes the surface.
+LIGHT_FROM_BEHIND = """
+[[light]]
+type = "directional"
+direction = [-0.3, -0.5, 0.8]
+"""
+
 
 def another(number, least, most):
     """Another allowed number of the same kind, far enough away to be visible."""
@@ -28,12 +47,12 @@ class Controls(PageTest):
             if (input.type === "color") return [1, 3, 5].map((at) => parseInt(input.value.slice(at, at + 2), 16));
             return input.type === "checkbox" ? input.checked : input.value;""", path)
 
-    def try_input(self, generated, own, path, selector, value, models=()):
+    def try_input(self, generated, own, path, selector, value, options=()):
         what = f"{path}, {selector.split('] ')[-1]} = {value}"
         self.browser.enter(selector, value)
         shown = self.value_shown(path)
         page = self.picture(generated)
-        self.assert_alike(page, generated.render(*models, *options_for(path, shown)), f"{what}, shown as {shown}", before=own)
+        self.assert_alike(page, generated.render(*options, *options_for(path, shown)), f"{what}, shown as {shown}", before=own)
         self.assertTrue(self.browser.run("return document.querySelector(arguments[0]).classList.contains('changed')", f'[data-path="{path}"]'), what)
 
     def inputs(self, path):
@@ -57,18 +76,20 @@ class Controls(PageTest):
             return [option for option in options if option not in ("", value, self.own_model.get(path))]
         if path.endswith(("position", "look_at", "direction", "up", "edge_u", "edge_v")):
             return [float(value) + (0.35 if kind == "number" or float(value) + 0.35 <= float(most) else -0.35)]
+        if path.endswith("rotation"):
+            return [float(value) + 40]
         least, most = float(least or "-inf"), float(most or "inf")
         number = another(float(value), least, most)
         return [int(number) if path.endswith(("samples_u", "samples_v", "bands")) else number]
 
-    def try_setting(self, generated, own, path, undo, models=(), kinds=None):
-        for selector, kind, value, least, most, options in list(self.inputs(path)):
+    def try_setting(self, generated, own, path, undo, options=(), kinds=None):
+        for selector, kind, *described in list(self.inputs(path)):
             if kinds is not None and kind not in kinds:
                 continue
-            for new in self.new_values(path, kind, value, least, most, options):
+            for new in self.new_values(path, kind, *described):
                 undo()
                 list(self.inputs(path))  # these may also be rebuilt
-                self.try_input(generated, own, path, selector, new, models)
+                self.try_input(generated, own, path, selector, new, options)
 
     def reset(self):
         self.browser.click("reset-all")
@@ -102,19 +123,33 @@ class Controls(PageTest):
         self.check_all(Generated("controls-orthographic", scenes.ORTHOGRAPHIC))
 
     def test_materials_of_other_models(self):
-        generated = Generated("materials", scenes.PERSPECTIVE)
+        generated = Generated("materials", scenes.PERSPECTIVE + LIGHT_FROM_BEHIND)
         self.browser.open(generated.address)
+        unused = set(NEEDS)
+        self.own_model = {}
         for model in generated.scene["reflection_models"]:
-            def choose():
+            prefix = f"object.1.material.{model}."
+
+            def choose(needs=()):
                 self.browser.click("reset-all")
                 self.browser.enter("[data-path=reflection] select", model)
                 self.browser.unfold_all()
+                for name, value in dict(needs).items():
+                    self.browser.enter(f'[data-path="{prefix}{name}"] input[type=number]', value)
+
             choose()
-            self.own_model = {}
             own = self.picture(generated)
-            for path in [p for p in self.settings() if p.startswith(f"object.1.material.{model}.")]:
+            for path in [p for p in self.settings() if p.startswith(prefix)]:
                 with self.subTest(path):
-                    self.try_setting(generated, own, path, choose, ("--reflection", model), ("number", "select-one"))
+                    needs = NEEDS.get(path.removeprefix("object.1.material."), {})
+                    unused.discard(path.removeprefix("object.1.material."))
+                    choose(needs)
+                    before = self.picture(generated) if needs else own
+                    options = ["--reflection", model]
+                    for name, value in needs.items():
+                        options += options_for(prefix + name, value)
+                    self.try_setting(generated, before, path, lambda: choose(needs), options, ("number", "select-one"))
+        self.assertEqual(unused, set(), "no such parameter")
 
     def test_one_channel(self):
         generated = Generated("channels", scenes.PERSPECTIVE)
