@@ -114,9 +114,9 @@ Arrays aligned_inputs() {
         in.vec3(k_vertex_normal).set(i, {0, 1, 0});
         in.vec3(k_barycentric)
             .set(i, {i % 3 == 0 ? 1.0f : 0.0f, i % 3 == 1 ? 1.0f : 0.0f, i % 3 == 2 ? 1.0f : 0.0f});
-        const Vec3 axes[] = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {0.6f, 0.8f, 0}, {0, 0.8f, -0.6f}};
+        const Vec3 axes[] = {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}, {0.6f, 0.8f, 0}, {0, 0.8f, -0.6f}, {0, -1, 0}};
         in.vec3(k_observer).set(i, axes[i % 5]);
-        in.vec3(k_light).set(i, axes[i / 5 % 5]);
+        in.vec3(k_light).set(i, axes[i / 5 % 6]);
         in.vec3(k_dpdu).set(i, {2, 0, 0});
         in.vec3(k_dpdv).set(i, {0, 0, -2});
         const Vec3 up{0, 1, 0};

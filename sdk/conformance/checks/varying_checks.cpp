@@ -36,7 +36,7 @@ class Varied {
     Varied(const std::vector<Values>& sets, std::size_t count) {
         const std::vector<candela::Parameter>& schema = sets.front().set.schema();
         std::vector<std::vector<candela::ParamValue>> runtime;
-        for (const Values& values : sets) runtime.push_back(values.set.runtime(candela::ColorEncoding::srgb));
+        for (const Values& values : sets) runtime.push_back(values.set.runtime(candela::ColorEncoding::none));
         for (std::size_t p = 0; p < schema.size(); ++p) {
             const std::size_t channels = schema[p].type == ParamType::real ? 1 : 3;
             for (std::size_t c = 0; may_vary(schema[p]) && c < channels; ++c) {
