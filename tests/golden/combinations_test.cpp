@@ -44,6 +44,9 @@ TEST_CASE("all lights x reflection models x shading models x shapes render witho
     const std::vector<std::string> lights = {
         "type = \"ambient\"\n",
         "type = \"hemisphere\"\n",
+        "type = \"environment\"\n",
+        "type = \"gradient\"\n",
+        "type = \"sky\"\n",
         "type = \"distributed\"\nposition = [1, 1, 2]\nintensity = 5\n",
         "type = \"directional\"\ndirection = [-1, -1, -2]\n",
         "type = \"point\"\nposition = [1, 1, 2]\nintensity = 5\n",
@@ -68,9 +71,12 @@ TEST_CASE("all lights x reflection models x shading models x shapes render witho
                     CHECK(picture.finite);
                     CHECK_FALSE(picture.negative);
                     CHECK(picture.shaded > 100);
-                    // Gooch's tones replace ambient light; a transparent object shows the background.
+                    // Gooch's tones replace ambient light, and unlit reflects nothing else; a transparent
+                    // object shows the background.
                     const bool is_ambient = light == lights[0] || light == lights[1];
-                    CHECK((picture.brightest_on_object > 0.005 || (reflection == "gooch" && is_ambient)));
+                    const bool is_unlit = reflection == "unlit" && !is_ambient;
+                    CHECK((picture.brightest_on_object > 0.005 || is_unlit ||
+                           (reflection == "gooch" && is_ambient)));
                     ++rendered;
                 }
             }

@@ -73,6 +73,9 @@ std::string scene_with(const std::string& reflection, const std::array<std::stri
            "[[light]]\ntype = \"spot\"\nposition = [2, 3, 3]\ndirection = [-0.6, -1, -1]\nintensity = 8\n"
            "[[light]]\ntype = \"directional\"\ndirection = [0.3, -1, -0.5]\nintensity = 0.2\n"
            "[[light]]\ntype = \"hemisphere\"\nintensity = 0.1\n"
+           "[[light]]\ntype = \"environment\"\nintensity = 0.1\nsamples = 4\n"
+           "[[light]]\ntype = \"sky\"\nintensity = 0.1\n"
+           "[[light]]\ntype = \"gradient\"\nintensity = 0.1\n"
            "[[light]]\ntype = \"distributed\"\nposition = [0, 4, 2]\nintensity = 3\n"
            "[[object]]\ntype = \"sphere\"\nposition = [-1.1, 0, 0]\nshading = \"" +
            shadings[0] +

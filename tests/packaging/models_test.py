@@ -21,6 +21,8 @@ SHIPPED = models.shipped(CANDELA)
 class Pages(unittest.TestCase):
     def test_every_kernel_has_a_page(self):
         kernels = {f"{path.parent.name}-{path.stem}.md" for path in (ROOT / "plugins").glob("*/*.kernel")}
+        for kind in ("light", "reflection", "shading"):  # models with C++ in addition
+            kernels |= {f"{kind}-{path.stem}.md" for path in (ROOT / "plugins" / kind).glob("*/*.kernel")}
         self.assertGreaterEqual(len(kernels), 26)
         self.assertEqual({path.name for path in models.PAGES.iterdir()}, kernels | {"README.md"}, AGAIN)
 

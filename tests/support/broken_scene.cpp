@@ -201,7 +201,8 @@ class Breaker {
         return spoil(place, "not finite", below(2) != 0 ? "nan" : "-inf", "is not a usable number");
     }
     std::optional<Change> wrong_type() {
-        const auto place = any_parameter([](const Parameter& p) { return p.choices.empty(); });
+        const auto place =
+            any_parameter([](const Parameter& p) { return p.choices.empty() && p.type != ParamType::file; });
         return spoil(place, "wrong type", "\"red\"", "is a string, \"red\"; expected");
     }
     std::optional<Change> wrong_choice() {

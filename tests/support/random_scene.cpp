@@ -251,6 +251,8 @@ class Generator {
     Entries parameters_of(const candela::PluginFile& plugin) {
         Entries entries;
         for (const Parameter& p : plugin.manifest.parameters) {
+            // No file is needed.
+            if (p.type == ParamType::file && p.default_value) continue;
             if (!p.default_value || chance(0.6)) entries.emplace_back(p.name, value_of(p));
         }
         for (const candela::Relation& relation : plugin.manifest.relations) {

@@ -7,7 +7,7 @@ import json
 import random
 import subprocess
 
-SCENES = 16
+SCENES = 19
 OBJECTS = 8  # in two rows; many objects in few scenes, since starting compilers and browsers takes most of the time
 COLUMNS = 4
 

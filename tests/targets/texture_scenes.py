@@ -5,7 +5,7 @@ import json
 import random
 import struct
 
-SCENES = 6  # of at most three rows, a model each
+SCENES = 7  # of at most three rows, a model each
 SHADINGS = ["phong", "gouraud", "flat"]  # one for each rate at which light is evaluated
 
 # A quarter of a cylinder: its texture coordinates exceed the picture, and its vertices have colours.

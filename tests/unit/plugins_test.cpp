@@ -194,8 +194,10 @@ TEST_CASE("what a model reads is in its manifest, and what it offers is its clas
     };
     CHECK(manifest(PluginKind::light, "hemisphere").has_ambient);
     CHECK_FALSE(manifest(PluginKind::light, "point").has_ambient);
-    CHECK((manifest(PluginKind::reflection, "phong").surface_needs == candela::SurfaceNeeds{}));
-    CHECK((manifest(PluginKind::reflection, "ward").surface_needs == candela::SurfaceNeeds{.tangent = true}));
+    CHECK(
+        (manifest(PluginKind::reflection, "phong").surface_needs == candela::SurfaceNeeds{.varying = true}));
+    CHECK((manifest(PluginKind::reflection, "ward").surface_needs ==
+           candela::SurfaceNeeds{.tangent = true, .varying = true}));
     CHECK(manifest(PluginKind::shading, "gouraud").shading_needs.default_vertex_normals);
     CHECK_FALSE(manifest(PluginKind::shading, "area-weighted").shading_needs.default_vertex_normals);
 
