@@ -165,7 +165,7 @@ std::string_view notation_text(Notation notation) {
             return ", or \"EV 12\", or { aperture = 8, time = 0.008, iso = 200 }";
         case Notation::intensity:
         case Notation::cone:
-            return ", or \"800 lm\", \"1200 cd\" or \"60 W\"";
+            return R"(, or "800 lm", "1200 cd" or "60 W")";
         case Notation::illuminance:
             return ", or \"5 klx\"";
     }

@@ -333,7 +333,7 @@ std::unique_ptr<Instance> Registry::create_instance(PluginKind kind, std::string
                                                     const ParamSet& values, ColorEncoding encoding) {
     const PluginDescriptor& plugin = descriptor(kind, name);
     try {
-        PictureAccess pictures(*this, encoding);
+        const PictureAccess pictures(*this, encoding);
         std::unique_ptr<Instance> instance(plugin.create(values.runtime(encoding)));
         if (instance == nullptr) throw std::runtime_error("created nothing");
         return instance;

@@ -75,6 +75,7 @@ class WithTables final : public Model {
 struct NoPreparation {
     template <class Params>
     CANDELA_KERNEL_INLINE static const Params& run(const Params& params) {
+        // NOLINTNEXTLINE(bugprone-return-const-ref-from-parameter): callers copy it at once
         return params;
     }
 };
