@@ -350,6 +350,7 @@ class Exporter {
                                     "colours; give it a value",
                                     object.textures.front().parameter, object.label.text()));
         MaterialTextures textures;
+        std::vector<std::size_t> pictures;  // of each texture: index of to_.textures
         for (const ParameterTexture& texture : object.textures) {
             const ParamSet& values = object.reflection.parameters;
             const std::size_t index = values.index_of(texture.parameter);
@@ -358,13 +359,14 @@ class Exporter {
             const std::size_t picture = texture_of(texture.file, encoding);
             textures.add(texture, parameter, index,
                          {fmt::format("{}", picture), nullptr, texture.wrap, texture.transform});
+            pictures.resize(textures.textures.size(), picture);
         }
         std::vector<ExportedTexturedNumber> numbers;
         for (const TexturedNumber& number : textures.numbers) {
             const PlacedTexture& placed = textures.textures[number.texture];
             ExportedTexturedNumber exported{.parameter = number.parameter,
                                             .channel = number.channel,
-                                            .texture = std::stoul(placed.key),
+                                            .texture = pictures[number.texture],
                                             .texel_channel = number.texel_channel,
                                             .repeats = placed.wrap == TextureWrap::repeat,
                                             .scale = number.scale,

@@ -160,6 +160,7 @@ const GlslDepth k_reversed_depth{
 
 GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     require_different_names(scene);
+    const bool has_materials = most_material_pictures(scene) > 0;
     GlslParts parts;
     const auto if_shadows = [&](const char* text) { return scene.has_shadows ? text : ""; };
     const std::string lit =
@@ -169,10 +170,9 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
                  if_shadows("    seen_side = facing * point.face_normal;\n    seen_facing = facing;\n")}});
     parts.lights = lights_text(scene);
     for (const auto& model : scene.reflections)
-        parts.reflections.push_back(reflection_text(model, scene.has_shadows, has_textured_materials(scene)));
+        parts.reflections.push_back(reflection_text(model, scene.has_shadows, has_materials));
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
     const bool needs_triangle = sees_triangles(scene), is_textured = !scene.textures.empty();
-    const bool has_materials = has_textured_materials(scene);
     constexpr const char *k_triangle = "NEEDS_TRIANGLE", *k_texture = "TEXTURED",
                          *k_material = "TEXTURED_MATERIAL";
     const char* const color = has_materials ? "TEXTURED_COLOR" : k_texture;

@@ -8,9 +8,6 @@
 
 namespace candela::target {
 
-/// Whether an object of the scene has such a material.
-bool has_textured_materials(const ExportedScene& scene);
-
 /// For each object, GlslParts::materials.
 std::vector<std::string> textured_materials(const ExportedScene& scene);
 

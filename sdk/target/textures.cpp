@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "candela/embed.h"
@@ -54,6 +56,35 @@ std::string ppm_of(const TexturePixels& pixels) {
         fmt::format("P6\n{} {}\n{}\n", pixels.width, pixels.height, pixels.is_encoded ? 255 : 65535);
     file.append(reinterpret_cast<const char*>(pixels.bytes.data()), pixels.bytes.size());
     return file;
+}
+
+MaterialStatements material_statements(
+    const ExportedScene& scene, const ExportedObject& object, const MaterialNames& names,
+    const std::function<std::string(const ExportedTexturedNumber&)>& lookup) {
+    constexpr const char* k_channels[] = {".x", ".y", ".z"};
+    const auto finite = [](float x) {
+        constexpr float k_largest = std::numeric_limits<float>::max();
+        return float_text(std::clamp(x, -k_largest, k_largest));
+    };
+    MaterialStatements statements;
+    std::vector<std::string> lookups;
+    for (const ExportedTexturedNumber& n : object.textured_numbers) {
+        const std::string texel = lookup(n);
+        const auto known = std::ranges::find(lookups, texel);
+        const auto place = known - lookups.begin();
+        if (known == lookups.end()) {
+            statements.texels +=
+                fmt::format("{}{} texel_{} = {};\n", names.indent, names.texel_type, place, texel);
+            lookups.push_back(texel);
+        }
+        const ParamSpec& parameter = scene.reflections[object.reflection].plugin->parameters[n.parameter];
+        statements.assignments +=
+            fmt::format("{}{}.{}{} = number_of(texel_{}{}, {}, {}, {}, {});\n", names.indent, names.material,
+                        parameter.name, parameter.type == ParamType::real ? "" : k_channels[n.channel], place,
+                        k_channels[n.texel_channel], float_text(n.scale), float_text(n.offset),
+                        finite(n.minimum), finite(n.maximum));
+    }
+    return statements;
 }
 
 void write_textures(const ExportedScene& scene, FileSink& files) {

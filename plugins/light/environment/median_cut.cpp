@@ -35,8 +35,9 @@ struct Sent {
     }
 };
 
-/// Rec. 709's.
-double luminance(const float* rgb) {
+/// Rec. 709's. `rgb`: three numbers.
+template <class Numbers>
+double luminance(const Numbers& rgb) {
     return 0.2126 * double{rgb[0]} + 0.7152 * double{rgb[1]} + 0.0722 * double{rgb[2]};
 }
 
@@ -163,16 +164,12 @@ class MedianCut {
         const auto& d = sent.direction;
         const double length = std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
         // Light that comes from all sides equally, or none: any direction.
-        const double total = luminance_of(sent.intensity);
+        const double total = luminance(sent.intensity);
         const bool has_direction = length > 1e-6 * total && length > 0;
         for (std::size_t i = 0; i < 3; ++i) {
             to[i] = has_direction ? static_cast<float>(d[i] / length) : (i == 1 ? 1.0f : 0.0f);
             to[3 + i] = static_cast<float>(sent.intensity[i] / k_pi);
         }
-    }
-
-    static double luminance_of(const std::array<double, 3>& rgb) {
-        return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
     }
 
     const float* pixels_;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "candela/target/arrays.h"
 #include "candela/target/kernels.h"
 #include "candela/target/literals.h"
+#include "candela/target/textures.h"
 #include "shadows.h"
 
 CANDELA_EMBED(candela_cpp_grid, CANDELA_SOURCE_DIR "/templates/grid.h");
@@ -111,33 +111,17 @@ void CppObjects::add_object(std::size_t index) {
 /// Sets the numbers of an object's material that textures give.
 std::string CppObjects::textured_material(std::size_t number, const ExportedObject& object) const {
     const ExportedReflection& model = scene_.reflections[object.reflection];
-    std::string texels, sets;
-    std::vector<std::string> lookups;
-    for (const ExportedTexturedNumber& n : object.textured_numbers) {
-        const std::string lookup = fmt::format(
-            "texture_at({{&texture_{}(), {}}}, placed({{{}, {}}}, at))", n.texture, n.repeats,
-            list(n.placing[0], n.placing[1], n.placing[2]), list(n.placing[3], n.placing[4], n.placing[5]));
-        const auto known = std::ranges::find(lookups, lookup);
-        const auto place = static_cast<std::size_t>(known - lookups.begin());
-        if (known == lookups.end()) {
-            texels += fmt::format("        const vec3 texel_{} = {};\n", lookups.size(), lookup);
-            lookups.push_back(lookup);
-        }
-        const ParamSpec& parameter = model.plugin->parameters[n.parameter];
-        constexpr const char* k_channels[] = {".x", ".y", ".z"};
-        const auto finite = [](float x) {
-            constexpr float k_largest = std::numeric_limits<float>::max();
-            return float_text(std::clamp(x, -k_largest, k_largest));
-        };
-        sets += fmt::format("        m.{}{} = number_of(texel_{}{}, {}, {}, {}, {});\n", parameter.name,
-                            parameter.type == ParamType::real ? "" : k_channels[n.channel], place,
-                            k_channels[n.texel_channel], float_text(n.scale), float_text(n.offset),
-                            finite(n.minimum), finite(n.maximum));
-    }
+    const auto lookup = [](const ExportedTexturedNumber& n) {
+        return fmt::format("texture_at({{&texture_{}(), {}}}, placed({{{}, {}}}, at))", n.texture, n.repeats,
+                           list(n.placing[0], n.placing[1], n.placing[2]),
+                           list(n.placing[3], n.placing[4], n.placing[5]));
+    };
+    const auto [texels, assignments] =
+        material_statements(scene_, object, {"        ", "const vec3", "m"}, lookup);
     return fmt::format(
         "    if (o.textured == {}) {{  // {}\n{}        {} m = {};\n{}        own.{} = {};\n    }}\n", number,
         ascii_identifier(object.label), texels, model.plugin->kernel.parameters,
-        parameters_text(model, object.materials[object.reflection]), sets, material_member(model),
+        parameters_text(model, object.materials[object.reflection]), assignments, material_member(model),
         prepared(model, "m"));
 }
 

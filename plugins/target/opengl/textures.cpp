@@ -90,11 +90,8 @@ std::string materials_of(const std::vector<std::string>& materials) {
 }  // namespace
 
 Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
-    const bool has_materials =
-        std::ranges::any_of(glsl.materials, [](const std::string& text) { return !text.empty(); });
-    std::size_t most_pictures = 0;
-    for (const ExportedObject& object : scene.objects)
-        most_pictures = std::max(most_pictures, material_pictures(object).size());
+    const std::size_t most_pictures = most_material_pictures(scene);
+    const bool has_materials = most_pictures > 0;
     const auto if_materials = [&](std::string text) {
         return has_materials ? std::move(text) : std::string();
     };
@@ -135,7 +132,7 @@ std::string texture_members(const ExportedScene& scene, std::size_t index) {
     std::string text = object.color_texture == ExportedObject::k_no_texture
                            ? ", -1, true"
                            : fmt::format(", {}, {}", object.color_texture, object.color_texture_repeats);
-    if (std::ranges::none_of(scene.objects, is_textured)) return text;
+    if (most_material_pictures(scene) == 0) return text;
     std::string pictures;
     for (const MaterialPicture& picture : material_pictures(object))
         pictures +=

@@ -96,6 +96,8 @@ struct MaterialPicture {
     friend bool operator==(const MaterialPicture&, const MaterialPicture&) = default;
 };
 std::vector<MaterialPicture> material_pictures(const ExportedObject& object);
+/// The largest number of them that an object has.
+std::size_t most_material_pictures(const ExportedScene& scene);
 /// Shaders have 16 texture units; lights, tables, shadows and passes over the screen use some.
 constexpr std::size_t k_most_material_pictures = 9;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,21 @@ std::string texture_file(std::size_t number);
 
 /// A texture's file name without folders, for comments.
 std::string title_of(const ExportedTexture& texture);
+
+/// The statements with which a program sets the numbers of an object's material that textures give, in C++ or
+/// GLSL: look-ups of texels, each once, and assignments to members of `material` by a function number_of().
+struct MaterialStatements {
+    std::string texels, assignments;
+};
+struct MaterialNames {
+    const char* indent;
+    const char* texel_type;  // "const vec3"
+    const char* material;    // the variable
+};
+/// `lookup` makes the expression for the texel of a number.
+MaterialStatements material_statements(
+    const ExportedScene& scene, const ExportedObject& object, const MaterialNames& names,
+    const std::function<std::string(const ExportedTexturedNumber&)>& lookup);
 
 /// Texture look-ups in the kernel language: the exact footprint, bilinear, trilinear. A program that uses it
 /// must declare, before it, a struct ColorTexture with a member `repeats`, and color_texture_levels(),
