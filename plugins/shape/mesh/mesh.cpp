@@ -18,13 +18,13 @@
 #include "corners.h"
 #include "crease.h"
 #include "cutout.h"
-#include "derivatives.h"
 #include "loaded.h"
 #include "mesh_io/file_bytes.h"
 #include "mesh_io/readers.h"
 #include "mesh_io/surface.h"
 #include "origin.h"
 #include "part.h"
+#include "tangents.h"
 
 using namespace candela::sdk;
 
@@ -194,14 +194,18 @@ class FileMesh final : public candela::Shape {
     // Progress after each step, measured with ten million triangles.
     static constexpr double k_read = 0.5, k_oriented = 0.8, k_split = 0.9;
 
-    void write(const mesh_io::Surface& surface, const mesh::SplitVertices& split, const mesh::OpenEdges& open,
-               const candela::MeshRequest& request, candela::MeshSink& sink) const {
+    void write(const mesh_io::Surface& surface, const mesh::SplitVertices& creased,
+               const mesh::OpenEdges& open, const candela::MeshRequest& request,
+               candela::MeshSink& sink) const {
         sink.progress(k_split);
+        mesh::Tangents tangents;
+        if (request.derivatives && !surface.u.empty()) tangents = mesh::tangents_of(surface, creased);
+        const mesh::SplitVertices& split = tangents.vertices.indices.empty() ? creased : tangents.vertices;
         const mesh_io::Array<std::uint32_t>& indices =
             split.indices.empty() ? surface.indices : split.indices;
 
         const candela::MeshLayout layout{
-            .vertices = split.indices.empty() ? surface.position.size() : split.source.size(),
+            .vertices = split.source.empty() ? surface.position.size() : split.source.size(),
             .triangles = surface.triangles(),
             .has_normals = request.normals && !surface.normal.empty(),
             .has_uv = (request.uv || request.derivatives) && !surface.u.empty(),
@@ -226,7 +230,10 @@ class FileMesh final : public candela::Shape {
             write_colors(surface, split.source, request.color_management, layout.vertices, to.color, sink);
         std::ranges::copy(indices, to.indices.begin());
         if (layout.has_smooth_groups) std::ranges::copy(split.group, to.smooth_group.begin());
-        if (layout.has_derivatives && layout.has_uv) derivatives_from_uv(to, layout.vertices);
+        if (layout.has_derivatives && layout.has_uv) {
+            copy(tangents.dpdu, {}, layout.vertices, to.dpdu);
+            copy(tangents.dpdv, {}, layout.vertices, to.dpdv);
+        }
         std::vector<std::string> losses;
         for (const mesh_io::Unsupported& loss : surface.losses)
             if (!loss.appearance || !appearance_imported_) losses.push_back(loss.text);
