@@ -151,6 +151,7 @@ using candela::ExportedImage;
 using candela::ExportedLight;
 using candela::ExportedMesh;
 using candela::ExportedModel;
+using candela::ExportedNormalMap;
 using candela::ExportedObject;
 using candela::ExportedObserver;
 using candela::ExportedReflection;

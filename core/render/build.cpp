@@ -134,7 +134,8 @@ class SceneBuilder {
             solid.label = object.label.text();
             if (const Object* const old = object_before(i);
                 old != nullptr && old->color == object.color && old->color_texture == object.color_texture &&
-                old->color_texture_wrap == object.color_texture_wrap && old->shading == object.shading &&
+                old->color_texture_wrap == object.color_texture_wrap &&
+                old->normal_map == object.normal_map && old->shading == object.shading &&
                 old->reflection == object.reflection && old->textures == object.textures) {
                 solid.surface = std::move(before_->built.objects[i].surface);
                 continue;

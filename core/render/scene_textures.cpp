@@ -47,7 +47,8 @@ void SceneTextures::make(const Object& object, SurfaceModels& surface) {
         reported(diagnostics_, "object " + object.label.text(), object.texture_place, [&] {
             surface.color_texture = picture(object.color_texture, of_scene_, object.texture_place);
         });
-    if (!surface.material_textures.numbers.empty()) return;
+    if (surface.material_textures.arrays() > 0) return;
+    if (object.normal_map) make_normal_map(object, *object.normal_map, surface);
     for (const ParameterTexture& texture : object.textures) {
         reported(diagnostics_, fmt::format("'{}' of object {}", texture.parameter, object.label.text()),
                  texture.place, [&] {
@@ -63,14 +64,48 @@ void SceneTextures::make(const Object& object, SurfaceModels& surface) {
     }
 }
 
+void SceneTextures::make_normal_map(const Object& object, const NormalMap& map, SurfaceModels& surface) {
+    const char* const key = map.has_heights ? "bump_map" : "normal_map";
+    if (surface.shading == nullptr) return;  // an error has been reported
+    const ShadingRate rate = surface.shading->shading_rate();
+    if (rate != ShadingRate::fragment) {
+        diagnostics_.warning(
+            map.place, fmt::format("'{}' of object {} has no effect: shading/{} evaluates light once per {}",
+                                   key, object.label.text(), surface.shading_plugin,
+                                   rate == ShadingRate::face ? "face" : "vertex"));
+        return;
+    }
+    reported(diagnostics_, fmt::format("'{}' of object {}", key, object.label.text()), map.place, [&] {
+        std::string name = key_of(map.file, ColorEncoding::none);
+        std::shared_ptr<const MipMap> texels;
+        if (map.has_heights) {
+            name = fmt::format("{} {}", map.wrap == TextureWrap::repeat ? "slopes" : "slopes, clamped", name);
+            auto& slopes = pictures_[name];
+            if (slopes == nullptr) slopes = read_bump_map(map.file, registry_, map.wrap).mip_map;
+            texels = slopes;
+        } else {
+            texels = picture(map.file, ColorEncoding::none, map.place);
+        }
+        if (texels == nullptr) return;
+        surface.material_textures.add(map, {name, texels, map.wrap, map.transform}, texels->width(),
+                                      texels->height());
+    });
+}
+
 void require_texture_coordinates(const Object& object, Diagnostics& diagnostics) {
-    const bool is_of_color = !object.color_texture.empty();
+    SourceLocation place = object.texture_place;
+    std::string what = "color_texture";
+    if (object.color_texture.empty() && !object.textures.empty()) {
+        place = object.textures.front().place;
+        what = fmt::format("the texture of '{}'", object.textures.front().parameter);
+    } else if (object.color_texture.empty()) {
+        place = object.normal_map->place;
+        what = object.normal_map->has_heights ? "bump_map" : "normal_map";
+    }
     diagnostics.error(
-        is_of_color ? object.texture_place : object.textures.front().place,
+        place,
         fmt::format("object {} has no texture coordinates, which a texture needs", object.label.text()),
-        fmt::format("remove {}, or give the shape texture coordinates",
-                    is_of_color ? "color_texture"
-                                : fmt::format("the texture of '{}'", object.textures.front().parameter)));
+        fmt::format("remove {}, or give the shape texture coordinates", what));
 }
 
 }  // namespace candela

@@ -212,6 +212,23 @@ struct ParameterTexture {
     }
 };
 
+/// A picture that tilts the normals with which an object is lit.
+struct NormalMap {
+    std::string file{};        // absolute path
+    bool has_heights = false;  // above the surface, in its red channel; otherwise normals: 2 * texel - 1
+                               // along the directions of growing u and v, and along the normal
+    float scale = 1;           // of the normals' first two numbers; of heights: metres from black to white
+    TextureWrap wrap = TextureWrap::repeat;
+    TextureTransform transform{};
+    SourceLocation place{};
+
+    /// Ignores positions in the file.
+    friend inline bool operator==(const NormalMap& a, const NormalMap& b) {
+        return a.file == b.file && a.has_heights == b.has_heights && a.scale == b.scale && a.wrap == b.wrap &&
+               a.transform == b.transform;
+    }
+};
+
 struct Object {
     Label label;
     Model shape;
@@ -219,6 +236,7 @@ struct Object {
     Vec3 color{200, 200, 200};    // 0-255
     std::string color_texture{};  // absolute path of a picture that multiplies `color`; empty: none
     TextureWrap color_texture_wrap = TextureWrap::repeat;
+    std::optional<NormalMap> normal_map{};
     bool encloses = false;  // others may be inside; drawn from both sides
     bool casts_shadows = true;
     bool receives_shadows = true;
@@ -234,9 +252,10 @@ struct Object {
     friend inline bool operator==(const Object& a, const Object& b) {
         return a.label == b.label && a.shape == b.shape && a.transform == b.transform && a.color == b.color &&
                a.color_texture == b.color_texture && a.color_texture_wrap == b.color_texture_wrap &&
-               a.encloses == b.encloses && a.casts_shadows == b.casts_shadows &&
-               a.receives_shadows == b.receives_shadows && a.transmits_light == b.transmits_light &&
-               a.shading == b.shading && a.reflection == b.reflection && a.textures == b.textures;
+               a.normal_map == b.normal_map && a.encloses == b.encloses &&
+               a.casts_shadows == b.casts_shadows && a.receives_shadows == b.receives_shadows &&
+               a.transmits_light == b.transmits_light && a.shading == b.shading &&
+               a.reflection == b.reflection && a.textures == b.textures;
     }
 };
 

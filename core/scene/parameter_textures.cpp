@@ -16,6 +16,7 @@ module candela.scene;
 import :fields;
 import :models;
 import :tables;
+import :textures;
 import :vocabulary;
 import candela.api;
 import candela.plugins;
@@ -100,30 +101,7 @@ std::optional<ParameterTexture> ModelChooser::texture_in(const TableNode& table,
     };
     require_three("scale", texture.scale);
     require_three("offset", texture.offset);
-    if (const TableNode::Entry* const entry = table.find("transform")) {
-        const Table<TextureTransform>& placing = own_tables().texture_transform;
-        const TableNode* const transform = entry->node.table();
-        if (transform == nullptr) {
-            diagnostics.error(entry->node.place,
-                              fmt::format("'transform' of {} is {}; expected a table, such as "
-                                          "{{ scale = [2, 2] }}",
-                                          where, description(entry->node)));
-        } else {
-            context.where = "'transform' of " + where;
-            context.place = entry->node.place;
-            report_unknown_keys(*transform, names_in(*placing.schema()), context, diagnostics);
-            placing.assign(transform, read_parameters(*transform, placing.schema(), context, diagnostics).set,
-                           texture.transform);
-            for (const char* const key : {"scale", "offset"}) {
-                const TableNode::Entry* const pair = transform->find(key);
-                const ArrayNode* const numbers = pair != nullptr ? pair->node.array() : nullptr;
-                if (numbers != nullptr && numbers->size() != 2)
-                    diagnostics.error(pair->node.place,
-                                      fmt::format("'{}' has {} numbers; expected two, along u and v", key,
-                                                  numbers->size()));
-            }
-        }
-    }
+    read_transform(table, context, diagnostics, texture.transform);
     if (diagnostics.error_count() != errors) return std::nullopt;
     return texture;
 }

@@ -23,6 +23,7 @@ import :models;
 import :photometry;
 import :reading;
 import :tables;
+import :textures;
 import :vocabulary;
 import candela.api;
 import candela.plugins;
@@ -313,7 +314,9 @@ class Reader {
                                    place};
         const TableValues own = read_parameters(table, own_tables().object.schema(), context, diagnostics_);
         own_tables().object.assign(&table, own.set, object);
-        auto shape = read_typed("object", PluginKind::shape, table, own.set, context, {"material"});
+        object.normal_map = normal_map_in(table, "object " + object.label.text(), diagnostics_);
+        auto shape = read_typed("object", PluginKind::shape, table, own.set, context,
+                                {"material", "normal_map", "bump_map"});
         object.shading = models.shading_for(table);
         models.set_reflection(object, table, short_text(object.label));
         if (!shape) return;
@@ -364,6 +367,7 @@ std::vector<std::filesystem::path> input_files(const SceneDraft& draft) {
     for (const Object& object : scene.objects) {
         if (!object.color_texture.empty()) files.emplace_back(object.color_texture);
         for (const ParameterTexture& texture : object.textures) files.emplace_back(texture.file);
+        if (object.normal_map) files.emplace_back(object.normal_map->file);
         for (const Model* const model : {&object.shape, &object.shading, &object.reflection})
             add_files(*model, files);
     }

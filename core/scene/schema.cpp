@@ -176,6 +176,53 @@ Table<LightSource> light() {
              .omitted_by_default()}};
 }
 
+Table<TextureTransform> texture_transform() {
+    return {
+        {.name = "transform",
+         .title = "transform",
+         .meaning = "how the picture is placed on the texture coordinates: they are scaled, rotated, then "
+                    "moved; optional"},
+        {pair("scale", "along u and v: 2 repeats the picture twice", &TextureTransform::scale)
+             .omitted_by_default(),
+         field(Type::real, "rotation", "counter-clockwise about (0, 0)", &TextureTransform::rotation)
+             .unit("deg")
+             .omitted_by_default(),
+         pair("offset", "added along u and v", &TextureTransform::offset).omitted_by_default()}};
+}
+
+Field<NormalMap> picture_of_normals(const char* meaning) {
+    return field(Type::file, "texture", meaning, &NormalMap::file).required().placed(&NormalMap::place);
+}
+Field<NormalMap> wrap_of_normals() {
+    return choice({"repeat", "clamp"}, "wrap",
+                  "beyond the picture's edges: repeat it, or continue the values at its edges",
+                  &NormalMap::wrap)
+        .omitted_by_default();
+}
+
+Table<NormalMap> normal_map() {
+    return {{.name = "normal_map",
+             .title = "normal_map",
+             .meaning = "a picture of normals, 2 * texel - 1 each, which tilt those of a shading model that "
+                        "evaluates light per fragment; optional",
+             .tables = {texture_transform().about()}},
+            {picture_of_normals("red: along u, green: along v, blue: along the surface's normal"),
+             field(Type::real, "scale", "multiplies the normals' parts along u and v", &NormalMap::scale)
+                 .omitted_by_default(),
+             wrap_of_normals()}};
+}
+
+Table<NormalMap> bump_map() {
+    return {{.name = "bump_map",
+             .title = "bump_map",
+             .meaning = "a picture of heights above the surface, whose slopes tilt the normals of a shading "
+                        "model that evaluates light per fragment; optional, instead of normal_map",
+             .tables = {texture_transform().about()}},
+            {picture_of_normals("its red channel has the heights"),
+             field(Type::real, "height", "of white above black", &NormalMap::scale).unit("m").required(),
+             wrap_of_normals()}};
+}
+
 Table<Object> object() {
     return {
         {.name = "object",
@@ -183,7 +230,8 @@ Table<Object> object() {
          .meaning = "an object; any number. [object.material] holds the parameters of its reflection model",
          .plugins = {{"type", PluginKind::shape, ""},
                      {"shading", PluginKind::shading},
-                     {"reflection", PluginKind::reflection, "material"}}},
+                     {"reflection", PluginKind::reflection, "material"}},
+         .tables = {normal_map().about(), bump_map().about()}},
         {field(Type::text, "name", k_name, &Object::label, &Label::name).omitted_by_default(),
          field(Type::text, "type", "shape plugin; its parameters follow", &Object::shape, &Model::name)
              .required(),
@@ -224,20 +272,6 @@ Table<Object> object() {
          field(Type::text, "shading", "shading plugin; overrides [shading]", &Object::shading, &Model::name),
          field(Type::text, "reflection", "reflection plugin; overrides [reflection]", &Object::reflection,
                &Model::name)}};
-}
-
-Table<TextureTransform> texture_transform() {
-    return {
-        {.name = "transform",
-         .title = "transform",
-         .meaning = "how the picture is placed on the texture coordinates: they are scaled, rotated, then "
-                    "moved; optional"},
-        {pair("scale", "along u and v: 2 repeats the picture twice", &TextureTransform::scale)
-             .omitted_by_default(),
-         field(Type::real, "rotation", "counter-clockwise about (0, 0)", &TextureTransform::rotation)
-             .unit("deg")
-             .omitted_by_default(),
-         pair("offset", "added along u and v", &TextureTransform::offset).omitted_by_default()}};
 }
 
 Table<ParameterTexture> texture() {
@@ -324,6 +358,8 @@ const OwnTables& own_tables() {
                                     .reflection = reflection(),
                                     .light = light(),
                                     .object = object(),
+                                    .normal_map = normal_map(),
+                                    .bump_map = bump_map(),
                                     .texture = texture(),
                                     .texture_transform = texture_transform(),
                                     .orbit = orbit(),

@@ -187,12 +187,18 @@ class Writer {
             add(field, object);
             if (key == "type") add_parameters(object.shape.parameters, object.label.text());
         }
+        if (object.normal_map) {
+            const NormalMap& map = *object.normal_map;
+            const Table<NormalMap>& keys = map.has_heights ? own_tables().bump_map : own_tables().normal_map;
+            add(keys.about().name, inline_table(keys, map, map.transform));
+        }
         end();
         if (object.reflection.parameters.schema().empty()) return;
         text_ += "[object.material]\n";
         std::map<std::string, std::string> textures;
         for (const ParameterTexture& texture : object.textures)
-            textures.emplace(texture.parameter, texture_text(texture));
+            textures.emplace(texture.parameter,
+                             inline_table(own_tables().texture, texture, texture.transform));
         add_parameters(object.reflection.parameters, object.label.text(), textures);
         end();
     }
@@ -210,9 +216,10 @@ class Writer {
         return entries;
     }
 
-    static std::string texture_text(const ParameterTexture& texture) {
-        std::string entries = inline_entries(own_tables().texture, texture);
-        const std::string transform = inline_entries(own_tables().texture_transform, texture.transform);
+    template <class T>
+    static std::string inline_table(const Table<T>& table, const T& from, const TextureTransform& placing) {
+        std::string entries = inline_entries(table, from);
+        const std::string transform = inline_entries(own_tables().texture_transform, placing);
         if (!transform.empty()) entries += fmt::format(", transform = {{ {} }}", transform);
         return fmt::format("{{ {} }}", entries);
     }

@@ -80,13 +80,34 @@ ColorEncoding encoding_of(const ParameterTexture& texture, const Parameter& para
     return takes_three ? of_scene : ColorEncoding::none;
 }
 
-void MaterialTextures::add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
-                           const PlacedTexture& picture) {
+std::size_t MaterialTextures::number_of(const PlacedTexture& picture) {
     const auto same = std::ranges::find_if(textures, [&](const PlacedTexture& t) {
         return t.key == picture.key && t.wrap == picture.wrap && t.transform == picture.transform;
     });
     const auto number = static_cast<std::size_t>(same - textures.begin());
     if (same == textures.end()) textures.push_back(picture);
+    return number;
+}
+
+void MaterialTextures::add(const NormalMap& map, const PlacedTexture& picture, int width, int height) {
+    const std::array<float, 6> m = placing_of(map.transform);
+    TexturedNormal added{.texture = number_of(picture), .has_slopes = map.has_heights};
+    if (map.has_heights) {
+        // By the chain rule, from slopes per texel.
+        const float x = map.scale * static_cast<float>(width), y = map.scale * static_cast<float>(height);
+        added.to_uv = {m[0] * x, m[3] * y, m[1] * x, m[4] * y};
+    } else {
+        // The picture's axes on the surface, whatever their length.
+        const float u = std::hypot(m[0], m[3]), v = std::hypot(m[1], m[4]);
+        const float x = u > 0 ? map.scale / u : 0, y = v > 0 ? map.scale / v : 0;
+        added.to_uv = {m[0] * x, m[3] * x, m[1] * y, m[4] * y};
+    }
+    normal = added;
+}
+
+void MaterialTextures::add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
+                           const PlacedTexture& picture) {
+    const std::size_t number = number_of(picture);
     const float unit = parameter.unit == "deg" ? k_radians : 1.0f;
     const bool is_color = parameter.type == ParamType::color;
     const float low = is_color ? 0.0f : parameter.minimum, high = is_color ? 1.0f : parameter.maximum;
@@ -126,6 +147,10 @@ void evaluate(const MaterialTextures& textures, std::size_t count, const Texture
         }
         for (Numbers& channel : texel) std::fill_n(channel.begin(), count, 1.0f);
         texture.picture->multiply(footprints, {texel[0].data(), texel[1].data(), texel[2].data()});
+        if (textures.normal && textures.normal->texture == t) {
+            for (std::size_t c = 0; c < texel.size(); ++c)
+                std::copy_n(texel[c].data(), count, values[textures.numbers.size() + c].data());
+        }
         for (std::size_t k = 0; k < textures.numbers.size(); ++k) {
             const TexturedNumber number = textures.numbers[k];
             if (number.texture != t) continue;

@@ -34,11 +34,16 @@ void ObjectEnvironment::leave_batch(std::size_t count, const ConstVec3Span& orig
         std::fill_n(exit.distance, count, -1.0f);
     }
     PointNeeds needs = surface_->needs();
-    needs.color = needs.footprint = false;
+    needs.color = false;
+    needs.footprint = surface_->material_textures.normal.has_value();
     gather_places(*object_.mesh, triangles_, std::as_const(barycentric_).span(), needs, points_);
     // Into an array with room for a whole batch, as everywhere: not all plugins respect the end of their
     // batch.
     shading_normals(*surface_, points_, normal_.span());
+    if (surface_->material_textures.normal) {
+        apply_textures(*surface_, points_);
+        tilt_normals(*surface_, points_, normal_.span());
+    }
     const ConstVec3Span position = std::as_const(points_).position.span(),
                         normal = std::as_const(normal_).span();
     for (std::size_t i = 0; i < count; ++i) {

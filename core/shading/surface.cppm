@@ -65,7 +65,7 @@ struct CANDELA_EXPORT SurfaceModels {
     void set_shading(Registry& registry, const Model& model, ColorEncoding encoding);
     void set_reflection(Registry& registry, const Model& model, ColorEncoding encoding);
 
-    bool has_textures() const { return color_texture != nullptr || !material_textures.numbers.empty(); }
+    bool has_textures() const { return color_texture != nullptr || material_textures.arrays() > 0; }
 
     PointNeeds needs() const;
 };

@@ -170,7 +170,8 @@ PointNeeds SurfaceModels::needs() const {
             .barycentric = shading_needs.barycentric,
             .uv = shading_needs.uv || reflection_needs.uv || has_textures(),
             .footprint = has_textures(),
-            .derivatives = shading_needs.derivatives || reflection_needs.tangent,
+            .derivatives =
+                shading_needs.derivatives || reflection_needs.tangent || material_textures.normal.has_value(),
             .triangle = shading_needs.triangle};
 }
 
@@ -179,8 +180,8 @@ void apply_textures(const SurfaceModels& surface, SurfacePoints& points) {
     const TextureCoordinates at{.uv = {points.u.data(), points.v.data()},
                                 .per_x = {points.dudx.data(), points.dvdx.data()},
                                 .per_y = {points.dudy.data(), points.dvdy.data()}};
-    const std::size_t numbers = surface.material_textures.numbers.size();
-    while (points.parameters.size() < numbers) points.parameters.emplace_back(k_batch_size);
+    const std::size_t arrays = surface.material_textures.arrays();
+    while (points.parameters.size() < arrays) points.parameters.emplace_back(k_batch_size);
     evaluate(surface.material_textures, points.filled, at, points.parameters);
     if (surface.color_texture == nullptr) return;
     const Vec3Span color = points.color.span();
@@ -295,6 +296,7 @@ void SurfaceShader::require_sound(PluginKind kind, const std::string& plugin, st
 void SurfaceShader::find_normals(const SurfaceModels& surface, const SurfacePoints& points) {
     guarded(PluginKind::shading, surface.shading_plugin,
             [&] { shading_normals(surface, points, normal_.span()); });
+    tilt_normals(surface, points, normal_.span());
     if (points.any_from_behind)
         multiversion<FaceForwardLoop>(points.facing.data(), points.filled, normal_.span());
 }

@@ -8,6 +8,7 @@ module;
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -95,20 +96,39 @@ struct TexturedNumber {
     float minimum = 0, maximum = 1;
 };
 
-/// The parameters of a material that differ from point to point.
+/// A picture of normals or slopes that tilts an object's normals.
+struct TexturedNormal {
+    std::size_t texture = 0;
+    bool has_slopes = false;  // bump_texture(); otherwise normals: 2 * texel - 1
+    /// The first two numbers of a normal, or a slope's, along growing u and v: (m[0] x + m[1] y, m[2] x +
+    /// m[3] y). Of slopes, in metres per unit of u and v.
+    std::array<float, 4> to_uv{1, 0, 0, 1};
+};
+
+/// The parameters of a material that differ from point to point, and its normals.
 struct MaterialTextures {
     std::vector<PlacedTexture> textures{};
     std::vector<TexturedNumber> numbers{};
+    std::optional<TexturedNormal> normal{};
+
+    /// How many arrays evaluate() writes.
+    std::size_t arrays() const { return numbers.size() + (normal ? 3u : 0u); }
 
     /// Adds the numbers of a parameter, the model's number `index`.
     CANDELA_EXPORT void add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
                             const PlacedTexture& picture);
+    /// Adds a picture that tilts normals, of this width and height.
+    CANDELA_EXPORT void add(const NormalMap& map, const PlacedTexture& picture, int width, int height);
+
+  private:
+    std::size_t number_of(const PlacedTexture& picture);
 };
 
 /// The matrix of a transform, row by row: u' = m[0] u + m[1] v + m[2], v' with the other three.
 CANDELA_EXPORT std::array<float, 6> placing_of(const TextureTransform& transform) noexcept;
 
-/// Evaluates numbers at `count` points of a batch: value i of number k is values[k][i].
+/// Evaluates numbers at `count` points of a batch: value i of number k is values[k][i]. Behind them, the
+/// three channels of the picture that tilts normals.
 CANDELA_EXPORT void evaluate(const MaterialTextures& textures, std::size_t count,
                              const TextureCoordinates& at, std::span<AlignedVector<float>> values);
 
@@ -126,5 +146,11 @@ struct TextureImage {
 /// no image plugin supports the format, the file is unreadable, or memory is short.
 CANDELA_EXPORT TextureImage read_texture(const std::filesystem::path& file, Registry& registry,
                                          ColorEncoding encoding);
+
+/// The slopes of a picture's heights, those of its red channel, from texel to texel: in the red and green
+/// channels, along growing u and v, where k_level stands for none, and a level of 1 for an ascent by 1.
+CANDELA_EXPORT TextureImage read_bump_map(const std::filesystem::path& file, Registry& registry,
+                                          TextureWrap wrap);
+inline constexpr float k_level = 32768.0f / 65535.0f;
 
 }  // namespace candela

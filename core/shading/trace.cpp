@@ -54,6 +54,13 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
                      .specular = first_of(specular_),
                      .intensity = first_of(intensity)};
 
+    trace.shading_normal = trace.normal;
+    if (surface.material_textures.normal) {
+        shading_normals(surface, points, tangent_.span());
+        trace.shading_normal = points.facing[0] * first_of(tangent_);
+        const auto* const channel = &points.parameters[surface.material_textures.numbers.size()];
+        trace.normal_texel = {channel[0][0], channel[1][0], channel[2][0]};
+    }
     for (const VaryingParameter& one : varying_)
         trace.parameters.push_back({one.parameter, one.channel, one.values[0]});
     for (std::size_t k = 0; needs.triangle && k < 3; ++k) {

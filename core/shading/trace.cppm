@@ -42,7 +42,9 @@ struct VaryingValue {
 /// surface.
 struct PointTrace {
     Vec3 position{};
-    Vec3 normal{};  // N, from the shading model
+    Vec3 normal{};          // N
+    Vec3 shading_normal{};  // from the shading model, before a normal map or bump map tilts it
+    Vec3 normal_texel{};    // of that map: its channels, 0 to 1
     Vec3 to_observer{};
     Vec3 tangent{};                          // zero unless the reflection model needs it
     Vec3 color{};                            // C_o

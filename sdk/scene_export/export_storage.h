@@ -27,6 +27,7 @@ struct ExportStorage : ExportedGeometry {
         std::vector<ExportedValues> shadings, materials;
         std::vector<ParamSet> shading_values;
         std::vector<ExportedTexturedNumber> textured_numbers;
+        std::optional<ExportedNormalMap> normal_map;
     };
 
     explicit ExportStorage(Registry& plugins) : registry(plugins) {}

@@ -73,6 +73,7 @@ class Exporter {
             to_.exported_objects[i].shadings = to_.objects[i].shadings;
             to_.exported_objects[i].materials = to_.objects[i].materials;
             to_.exported_objects[i].textured_numbers = to_.objects[i].textured_numbers;
+            if (to_.objects[i].normal_map) to_.exported_objects[i].normal_map = &*to_.objects[i].normal_map;
         }
         ExportedScene& result = to_.scene;
         result.title = to_.title.c_str();
@@ -86,6 +87,7 @@ class Exporter {
                           std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.uv; }) ||
                           std::ranges::any_of(to_.reflections, [](const auto& r) { return r.needs.uv; });
         result.needs_derivatives =
+            std::ranges::any_of(to_.objects, [](const auto& o) { return o.normal_map.has_value(); }) ||
             std::ranges::any_of(to_.reflections, [](const auto& r) { return r.needs.tangent; }) ||
             std::ranges::any_of(to_.shadings, [](const auto& s) { return s.needs.derivatives; });
         to_.connect_tables();
@@ -328,8 +330,20 @@ class Exporter {
     /// The index of a picture that is decoded like that.
     std::size_t texture_of(const std::string& file, ColorEncoding encoding) {
         const auto [known, is_new] = textures_.try_emplace({file, encoding}, to_.textures.size());
-        if (!is_new) return known->second;
-        const auto& mip_map = to_.mip_maps.emplace_back(read_texture(file, registry_, encoding).mip_map);
+        if (is_new) add_texture(file, read_texture(file, registry_, encoding).mip_map);
+        return known->second;
+    }
+
+    /// The index of a picture of normals or slopes.
+    std::size_t texture_of(const NormalMap& map) {
+        if (!map.has_heights) return texture_of(map.file, ColorEncoding::none);
+        const auto [known, is_new] = slopes_.try_emplace({map.file, map.wrap}, to_.textures.size());
+        if (is_new) add_texture(map.file, read_bump_map(map.file, registry_, map.wrap).mip_map);
+        return known->second;
+    }
+
+    void add_texture(const std::string& file, std::shared_ptr<const MipMap> picture) {
+        const auto& mip_map = to_.mip_maps.emplace_back(std::move(picture));
         auto& levels = to_.levels.emplace_back();
         for (const MipMap::Level& level : mip_map->levels()) {
             const auto texels =
@@ -338,7 +352,25 @@ class Exporter {
                 {level.width, level.height, mip_map->texels().subspan(4 * level.first, 4 * texels)});
         }
         to_.textures.push_back({kept(file), levels});
-        return known->second;
+    }
+
+    std::optional<ExportedNormalMap> normal_map_of(const Object& object) {
+        if (!object.normal_map) return std::nullopt;
+        const NormalMap& map = *object.normal_map;
+        if (!request_.abilities.normal_maps)
+            throw Error(ErrorCategory::failure,
+                        fmt::format("object {} has a {}, which this target does not support; remove it",
+                                    object.label.text(), map.has_heights ? "bump_map" : "normal_map"));
+        ExportedNormalMap exported{.texture = texture_of(map),
+                                   .repeats = map.wrap == TextureWrap::repeat,
+                                   .has_slopes = map.has_heights,
+                                   .scale = map.scale};
+        const MipMap& picture = *to_.mip_maps[exported.texture];
+        MaterialTextures textures;
+        textures.add(map, {}, picture.width(), picture.height());
+        std::ranges::copy(placing_of(map.transform), exported.placing);
+        std::ranges::copy(textures.normal->to_uv, exported.to_uv);
+        return exported;
     }
 
     /// The numbers of an object's own material that come from pictures.
@@ -400,6 +432,7 @@ class Exporter {
             .receives_shadows = object.receives_shadows,
             .transmits_light = object.transmits_light};
         own.textured_numbers = textured_numbers_of(object);
+        own.normal_map = normal_map_of(object);
         // Not by their names: files with the same text are the same plugin.
         const PluginDescriptor& shading = registry_.descriptor(PluginKind::shading, object.shading.name);
         const PluginDescriptor& reflection =
@@ -432,6 +465,7 @@ class Exporter {
     const ExportRequest& request_;
     std::map<std::pair<PluginKind, std::string>, std::optional<Scene>> with_;
     std::map<std::pair<std::string, ColorEncoding>, std::size_t> textures_;  // indices of to_.textures
+    std::map<std::pair<std::string, TextureWrap>, std::size_t> slopes_;      // of bump maps
 };
 
 }  // namespace

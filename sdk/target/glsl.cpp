@@ -128,6 +128,16 @@ struct Feature {
     const char* statement = "";
 };
 
+constexpr const char* k_look_up_at_vertex =
+    "lit_uv = uv;\n#ifdef TEXTURED_MATERIAL\n    find_material();\n#endif";
+constexpr const char* k_look_up_at_fragment =
+    "lit_place = at_place;\n    lit_uv = at_uv;\n#ifdef TEXTURED_MATERIAL\n    find_material();\n#endif";
+constexpr const char* k_shading_normal = "    s.normal = facing * shading_normal(point);\n";
+constexpr const char* k_mapped_normal =
+    "#if defined(NORMAL_MAPPED) && defined(LIT_AT_FRAGMENT)\n"
+    "    s.normal = facing * mapped_normal(shading_normal(point), point);\n#else\n"
+    "    s.normal = facing * shading_normal(point);\n#endif\n";
+
 std::string stage_text(const char* text, const std::vector<Feature>& features, Values values = {}) {
     std::string declarations;
     for (const Feature& f : features) {
@@ -166,6 +176,7 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     const std::string lit =
         filled(candela_target_lit,
                {{"PREPARATION", calls_of_preparations(scene)},
+                {"NORMAL", has_normal_maps(scene) ? k_mapped_normal : k_shading_normal},
                 {"SEEN_SIDE",
                  if_shadows("    seen_side = facing * point.face_normal;\n    seen_facing = facing;\n")}});
     parts.lights = lights_text(scene);
@@ -174,7 +185,7 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
     const bool needs_triangle = sees_triangles(scene), is_textured = !scene.textures.empty();
     constexpr const char *k_triangle = "NEEDS_TRIANGLE", *k_texture = "TEXTURED",
-                         *k_material = "TEXTURED_MATERIAL";
+                         *k_material = "READS_PICTURES";
     const char* const color = has_materials ? "TEXTURED_COLOR" : k_texture;
     parts.vertex =
         lit +
@@ -184,22 +195,20 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
               "pass_triangle();"},
              {is_textured, candela_target_texture_vertex, "PASS_TEXTURE", k_texture, "pass_texture();"},
              {is_textured, "", "TEXTURE_COLOR", color, "color *= color_texture_at(color_texture, uv, 0.0);"},
-             {has_materials, candela_target_material_vertex, "MATERIAL", k_material,
-              "lit_uv = uv;\n    find_material();"}},
+             {has_materials, candela_target_material_vertex, "MATERIAL", k_material, k_look_up_at_vertex}},
             {{"CORNER", if_shadows("flat out vec3 at_corner;\n")},
              {"PASS_CORNER", if_shadows("    at_corner = position;\n")}});
-    parts.fragment =
-        lit + stage_text(candela_target_fragment,
-                         {{needs_triangle, candela_target_triangle_fragment, "READ_TRIANGLE", k_triangle,
-                           "read_triangle();"},
-                          {is_textured, candela_target_texture_fragment, "TEXTURE_COLOR", color,
-                           "color *= texture_seen(at_place, at_uv);"},
-                          {has_materials, candela_target_material_fragment, "MATERIAL", k_material,
-                           "lit_place = at_place;\n    lit_uv = at_uv;\n    find_material();"}},
-                         {{"DEPTH_UNIFORM", depth.uniform},
-                          {"DEPTH", depth.statement},
-                          {"SHADOW_PLACE", if_shadows(candela_target_shadow_fragment)},
-                          {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
+    parts.fragment = lit + stage_text(candela_target_fragment,
+                                      {{needs_triangle, candela_target_triangle_fragment, "READ_TRIANGLE",
+                                        k_triangle, "read_triangle();"},
+                                       {is_textured, candela_target_texture_fragment, "TEXTURE_COLOR", color,
+                                        "color *= texture_seen(at_place, at_uv);"},
+                                       {has_materials, candela_target_material_fragment, "MATERIAL",
+                                        k_material, k_look_up_at_fragment}},
+                                      {{"DEPTH_UNIFORM", depth.uniform},
+                                       {"DEPTH", depth.statement},
+                                       {"SHADOW_PLACE", if_shadows(candela_target_shadow_fragment)},
+                                       {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
     if (is_textured) {
         const std::string texture = filled(
             candela_target_texture,
@@ -210,8 +219,10 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
                            ? "texel_of_unit(t.unit, (level == 0 ? ivec2(0) : corner) + ivec2(x, y))"
                            : "texelFetch(color_texels, (level == 0 ? ivec2(0) : corner) + ivec2(x, y), 0)"}});
         parts.texture = texture + std::string(texture_kernel()) + "\n";
+        if (has_normal_maps(scene)) parts.texture += std::string(normal_map_kernel()) + "\n";
     }
     parts.materials = textured_materials(scene);
+    parts.normal_maps = normal_map_texts(scene);
     parts.screen = candela_target_screen;
     parts.accumulate = candela_target_accumulate;
     parts.encode = "#define KERNEL\n" + std::string(tone_kernel()) + "\n" + candela_target_encode;

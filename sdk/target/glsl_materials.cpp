@@ -19,34 +19,58 @@ std::string row(const float (&placing)[6], std::size_t first) {
                        float_text(placing[first + 2]));
 }
 
+/// Looks up a picture of the object.
+template <class Picture>
+std::string texel_text(const ExportedObject& object, const Picture& picture) {
+    const std::vector<MaterialPicture> pictures = material_pictures(object);
+    const auto slot =
+        std::ranges::find(pictures, MaterialPicture{picture.texture, picture.repeats}) - pictures.begin();
+    return fmt::format("material_texel(material_texture_{}, {}, {})", slot, row(picture.placing, 0),
+                       row(picture.placing, 3));
+}
+
+constexpr const char* k_reads_pictures =
+    "#ifndef READS_PICTURES\n#define READS_PICTURES\n"
+    "vec3 material_texel(ColorTexture t, vec3 u, vec3 v);\n#endif\n";
+
 std::string text_of(const ExportedScene& scene, const ExportedObject& object) {
     if (object.textured_numbers.empty()) return "";
-    const std::vector<MaterialPicture> pictures = material_pictures(object);
-    const auto lookup = [&](const ExportedTexturedNumber& n) {
-        const auto slot =
-            std::ranges::find(pictures, MaterialPicture{n.texture, n.repeats}) - pictures.begin();
-        return fmt::format("material_texel(material_texture_{}, {}, {})", slot, row(n.placing, 0),
-                           row(n.placing, 3));
-    };
+    const auto lookup = [&](const ExportedTexturedNumber& n) { return texel_text(object, n); };
     const auto [texels, assignments] =
         material_statements(scene, object, {"    ", "vec3", "own_material"}, lookup);
-    return fmt::format(
-        "vec3 material_texel(ColorTexture t, vec3 u, vec3 v);\n"
-        "float number_of(float texel, float scale, float offset, float low, float high) {{\n"
-        "    return min(max(offset + scale * texel, low), high);\n}}\n"
-        "// {}: textures give some numbers of its material.\n"
-        "void find_material() {{\n    own_material = material;\n{}{}}}\n",
-        ascii_identifier(object.label), texels, assignments);
+    return k_reads_pictures +
+           fmt::format(
+               "float number_of(float texel, float scale, float offset, float low, float high) {{\n"
+               "    return min(max(offset + scale * texel, low), high);\n}}\n"
+               "// {}: textures give some numbers of its material.\n"
+               "void find_material() {{\n    own_material = material;\n{}{}}}\n",
+               ascii_identifier(object.label), texels, assignments);
+}
+
+std::string normal_text_of(const ExportedObject& object) {
+    if (object.normal_map == nullptr) return "";
+    const ExportedNormalMap& map = *object.normal_map;
+    return k_reads_pictures +
+           fmt::format(
+               "#define NORMAL_MAPPED\n"
+               "// {}: a picture tilts its normals.\n"
+               "vec3 mapped_normal(vec3 n, ShadingPoint p) {{\n"
+               "    vec3 texel = {};\n"
+               "    return {}(texel, vec2({}, {}), vec2({}, {}), n, p.dpdu, p.dpdv);\n}}\n",
+               ascii_identifier(object.label), texel_text(object, map), normal_function(map),
+               float_text(map.to_uv[0]), float_text(map.to_uv[1]), float_text(map.to_uv[2]),
+               float_text(map.to_uv[3]));
 }
 
 }  // namespace
 
 std::vector<MaterialPicture> material_pictures(const ExportedObject& object) {
     std::vector<MaterialPicture> pictures;
-    for (const ExportedTexturedNumber& n : object.textured_numbers) {
-        const MaterialPicture one{n.texture, n.repeats};
+    const auto add = [&](const MaterialPicture& one) {
         if (std::ranges::find(pictures, one) == pictures.end()) pictures.push_back(one);
-    }
+    };
+    for (const ExportedTexturedNumber& n : object.textured_numbers) add({n.texture, n.repeats});
+    if (object.normal_map != nullptr) add({object.normal_map->texture, object.normal_map->repeats});
     return pictures;
 }
 
@@ -66,6 +90,12 @@ std::vector<std::string> textured_materials(const ExportedScene& scene) {
                             object.label, material_pictures(object).size(), k_most_material_pictures));
         all.push_back(text_of(scene, object));
     }
+    return all;
+}
+
+std::vector<std::string> normal_map_texts(const ExportedScene& scene) {
+    std::vector<std::string> all;
+    for (const ExportedObject& object : scene.objects) all.push_back(normal_text_of(object));
     return all;
 }
 

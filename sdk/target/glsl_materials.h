@@ -11,6 +11,9 @@ namespace candela::target {
 /// For each object, GlslParts::materials.
 std::vector<std::string> textured_materials(const ExportedScene& scene);
 
+/// For each object, GlslParts::normal_maps.
+std::vector<std::string> normal_map_texts(const ExportedScene& scene);
+
 /// The part of GlslParts::texture that reads the pictures of materials, which needs a member `unit` of
 /// ColorTexture; empty if no object has one.
 std::string material_units(const ExportedScene& scene);

@@ -13,6 +13,7 @@
 #include "candela/target/literals.h"
 
 CANDELA_EMBED(candela_target_texture_kernel, CANDELA_TARGET_TEMPLATES "/texture.kernel");
+CANDELA_EMBED(candela_target_normal_map_kernel, CANDELA_TARGET_TEMPLATES "/normal_map.kernel");
 CANDELA_EMBED(candela_target_texture_file, CANDELA_TARGET_TEMPLATES "/texture_file.h");
 
 namespace candela::target {
@@ -100,6 +101,15 @@ std::string title_of(const ExportedTexture& texture) {
     const std::string_view file = texture.file;
     return ascii_identifier(file.substr(file.find_last_of('/') + 1));
 }
+
+bool has_normal_maps(const ExportedScene& scene) {
+    return std::ranges::any_of(scene.objects,
+                               [](const ExportedObject& o) { return o.normal_map != nullptr; });
+}
+const char* normal_function(const ExportedNormalMap& map) {
+    return map.has_slopes ? "normal_from_slopes" : "normal_from_map";
+}
+std::string_view normal_map_kernel() { return candela_target_normal_map_kernel; }
 
 std::string_view texture_kernel() { return candela_target_texture_kernel; }
 std::string_view texture_file_source() { return candela_target_texture_file; }

@@ -100,8 +100,8 @@ export class ProgramCache {
     }
 
     /** The program for an object of an appearance; it may still be compiling (Program.check waits). */
-    lighting({ shading, reflection, closed, isTextured, hasColorTexture, material }) {
-        const key = `${shading} ${reflection} ${closed} ${hasColorTexture} ${material}`;
+    lighting({ shading, reflection, closed, isTextured, hasColorTexture, material, normalMap }) {
+        const key = `${shading} ${reflection} ${closed} ${hasColorTexture} ${material} ${normalMap}`;
         if (!this.programs.has(key)) {
             const { shaders, shading_models, reflection_models } = this.scene;
             const s = shading_models[shading], r = reflection_models[reflection];
@@ -109,7 +109,8 @@ export class ProgramCache {
                 (closed ? "" : "#define TWO_SIDED\n") +
                 (material === null ? "" : "#define TEXTURED_MATERIAL\n") + (hasColorTexture ? "#define TEXTURED_COLOR\n" : "") +
                 [shaders.prelude, isTextured ? shaders.texture : "", shaders.lights, r.glsl, s.glsl,
-                    material === null ? "" : shaders.materials[material], ""].join("\n");
+                    material === null ? "" : shaders.materials[material],
+                    normalMap === null ? "" : shaders.normal_maps[normalMap], ""].join("\n");
             const title = `${r.title} with the shading model ${s.title}`;
             this.programs.set(key, this.compiled(title, common + shaders.vertex, common + shaders.fragment));
         }

@@ -1,5 +1,6 @@
 """Scenes that together show a texture with every reflection model, evaluated per pixel, at vertices and for faces; repeated and clamped;
-magnified, and on a floor that recedes until a pixel covers tens of texels; alone and on vertex colours."""
+magnified, and on a floor that recedes until a pixel covers tens of texels; alone and on vertex colours; with normals from pictures of
+normals and of heights."""
 
 import json
 import random
@@ -54,6 +55,16 @@ def ppm(width, height, largest, seed):
     return f"P6\n{width} {height}\n{largest}\n".encode() + bytes(values)
 
 
+def normals(width, height):
+    """Waves as a normal map."""
+    values = bytearray()
+    for y in range(height):
+        for x in range(width):
+            tilt = 0.35 * wave_of(3 * x / width), 0.35 * wave_of(2 * y / height)
+            values += bytes(round(127.5 + 127.5 * c) for c in (*tilt, (1 - tilt[0] ** 2 - tilt[1] ** 2) ** 0.5))
+    return f"P6\n{width} {height}\n255\n".encode() + bytes(values)
+
+
 def wave_of(x):
     """A periodic smooth wave from 0 to 1: a parabola up and one down."""
     x %= 1
@@ -64,8 +75,14 @@ def wave_of(x):
 def files():
     """The files that the scenes use, by name; the pictures include one of odd size and one of 16 bits."""
     return {"floor.obj": FLOOR.encode(), "cylinder.obj": cylinder().encode(), "fine.ppm": ppm(256, 256, 255, 1),
-            "odd.ppm": ppm(61, 43, 255, 2), "deep.ppm": ppm(48, 64, 65535, 3)}
+            "odd.ppm": ppm(61, 43, 255, 2), "deep.ppm": ppm(48, 64, 65535, 3),
+            "normals.ppm": normals(64, 48)}
 
+
+NORMALS = [
+    "", 'normal_map = { texture = "normals.ppm", scale = 0.8, transform = { scale = [2, 1.5], rotation = 20 } }\n',
+    'bump_map = { texture = "deep.ppm", height = 0.1, wrap = "clamp" }\n',
+]
 
 SHAPES = [
     'type = "mesh"\nfile = "cylinder.obj"\nscale = [0.75, 0.75, 0.75]\n',
@@ -75,8 +92,8 @@ SHAPES = [
 ]
 
 
-def scene_text(reflections, number):
-    """The TOML of a scene with a share of the reflection models."""
+def scene_text(reflections, number, has_normals):
+    """The TOML of a scene with a share of the reflection models. `has_normals`: some objects have pictures of normals or heights."""
     share = reflections[number::SCENES]
     is_perspective = number != 2
     size = "fov = 44" if is_perspective else "height = 4.2"
@@ -93,5 +110,5 @@ def scene_text(reflections, number):
             picture = ["fine", "odd", "deep"][(row + column) % 3]
             text += (f'[[object]]\nposition = [{1.3 * (column - 1):.2f}, {1.35 - 1.05 * row:.2f}, {-0.4 * (row == 0):.2f}]\nshading = "{shading}"\n'
                      f'reflection = "{reflection}"\ncolor = [{230 - 20 * row}, 240, {200 + 15 * column}]\ncolor_texture = "{picture}.ppm"\n'
-                     f'color_texture_wrap = {json.dumps(["repeat", "clamp"][(place // 2) % 2])}\n' + SHAPES[place % len(SHAPES)])
+                     f'color_texture_wrap = {json.dumps(["repeat", "clamp"][(place // 2) % 2])}\n' + (NORMALS[(number + row) % len(NORMALS)] if has_normals else "") + SHAPES[place % len(SHAPES)])
     return text

@@ -104,6 +104,7 @@ Json json_of(const Explanation& e, const PointTrace& point, const candela::Objec
     for (const LightTrace& light : point.lights) lights.push_back(json_of(e, point, light, reflection));
     return {{"position", json_of(point.position)},
             {"N", json_of(point.normal)},
+            {"shading_normal", json_of(point.shading_normal)},
             {"V", json_of(point.to_observer)},
             {"C_o", json_of(point.color)},
             {"parameters", parameters_of(point, object)},

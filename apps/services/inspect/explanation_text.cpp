@@ -118,14 +118,36 @@ class Writer {
         }
     }
 
+    void write_normal_map(const PointTrace& point, const candela::NormalMap& map,
+                          const candela::PlacedTexture& picture) {
+        const std::array<int, 2> texel = picture.texel_at(point.u, point.v);
+        const Vec3 t = point.normal_texel;
+        const Vec3 meaning = map.has_heights ? Vec3{t.x - candela::k_level, t.y - candela::k_level, 0}
+                                             : 2.0f * t - Vec3{1, 1, 1};
+        value(2, map.has_heights ? "slopes" : "mapped", meaning,
+              fmt::format("texel ({}, {}) of {}", texel[0], texel[1],
+                          std::filesystem::path(map.file).filename().string()));
+        value(2, "N", point.normal,
+              map.has_heights ? "N_shading, tilted by the slopes" : "N_shading, tilted");
+    }
+
     void write(const PointTrace& point, const candela::Object& object, std::size_t object_index) {
         value(2, "p", point.position);
-        value(2, "N", point.normal, point.from_behind ? "seen from behind: reversed" : "");
-        steps(3, e_.normal_steps(point));
+        const candela::MaterialTextures& textures =
+            e_.compiled.objects[object_index].surface.material_textures;
+        const char* const reversed = point.from_behind ? "seen from behind: reversed" : "";
+        if (textures.normal) {
+            value(2, "N_shading", point.shading_normal, reversed);
+            steps(3, e_.normal_steps(point));
+            write_normal_map(point, *object.normal_map, textures.textures[textures.normal->texture]);
+        } else {
+            value(2, "N", point.normal, reversed);
+            steps(3, e_.normal_steps(point));
+        }
         value(2, "V", point.to_observer);
         if (length(point.tangent) > 0) value(2, "T", point.tangent);
         value(2, "C_o", point.color);
-        write_textures(point, object, e_.compiled.objects[object_index].surface.material_textures);
+        write_textures(point, object, textures);
         for (const LightTrace& light : point.lights) write(light, point, object);
         if (length(point.surroundings) > 0) value(2, "surroundings", point.surroundings);
         value(2, "I_a", point.ambient);

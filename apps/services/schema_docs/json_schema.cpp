@@ -194,7 +194,10 @@ class SchemaWriter {
             properties[p.name] = is_timed ? timed_schema(p) : parameter_schema(p);
             own.push_back(p.name);
         }
-        for (const TableSchema& inner : table.tables) properties[inner.name] = schema_of(inner);
+        for (const TableSchema& inner : table.tables) {
+            properties[inner.name] = schema_of(inner);
+            own.push_back(inner.name);
+        }
         for (const PluginKey& key : table.plugins) {
             properties[key.key] = name_schema(parameter_in(table, key.key).meaning, key.kind);
             if (key.parameters_in.value_or("").empty()) continue;

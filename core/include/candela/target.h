@@ -83,6 +83,21 @@ struct ExportedTexturedNumber {
     float minimum = 0, maximum = 1;
 };
 
+/// A picture that tilts an object's normals, where light is evaluated for each fragment.
+struct ExportedNormalMap {
+    std::size_t texture = 0;                // index into ExportedScene::textures
+    bool repeats = true;                    // the texture, beyond its edges
+    float placing[6] = {1, 0, 0, 0, 1, 0};  // of texture coordinates, as of ExportedTexturedNumber
+    /// The picture has slopes of heights instead of normals: in its first two channels, where 32768 of 65535
+    /// is level.
+    bool has_slopes = false;
+    /// The first two numbers of a normal (2 * texel - 1), or a slope's, along growing u and v: (m[0] x + m[1]
+    /// y, m[2] x + m[3] y). Of slopes, in metres per unit of u and v.
+    float to_uv[4] = {1, 0, 0, 1};
+    /// Of normals: how much of to_uv is the author's scale of their first two numbers.
+    float scale = 1;
+};
+
 struct ExportedObject {
     static constexpr std::size_t k_no_texture = static_cast<std::size_t>(-1);
 
@@ -98,6 +113,7 @@ struct ExportedObject {
     std::size_t color_texture = k_no_texture;  // index into ExportedScene::textures
     bool color_texture_repeats = true;         // beyond its edges; otherwise the edge colours continue
     std::span<const ExportedTexturedNumber> textured_numbers{};  // of its own reflection model
+    const ExportedNormalMap* normal_map = nullptr;               // or null
     // With ExportedScene::has_shadows:
     bool casts_shadows = true;     // it blocks light
     bool receives_shadows = true;  // others, and its own parts, block light on it
@@ -190,7 +206,7 @@ struct ExportedScene {
     std::span<const float> tables{};  // the numbers of all kernels' tables; equal tables are stored once
     std::span<const ExportedTexture> textures{};
     bool needs_uv = false;           // a model reads texture coordinates, or an object has a texture
-    bool needs_derivatives = false;  // a model reads partial derivatives of positions
+    bool needs_derivatives = false;  // a model, or a normal map, reads partial derivatives of positions
     bool has_shadows = false;        // objects block light
     bool shadows_vary = true;        // samples of lights with an extent vary from pixel to pixel within it
     ExportedGeometry* geometry = nullptr;
@@ -243,6 +259,7 @@ struct TargetAbilities {
     bool vertex_colors = false;          // ExportedMesh::color; otherwise the host refuses a mesh that has it
     bool textures = false;               // ExportedObject::color_texture
     bool textured_numbers = false;       // ExportedObject::textured_numbers
+    bool normal_maps = false;            // ExportedObject::normal_map
     bool shadows = false;                // ExportedScene::has_shadows
     bool display = false;                // ExportedImage::exposure and ::tone
 };

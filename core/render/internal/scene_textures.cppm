@@ -30,6 +30,7 @@ class SceneTextures {
     std::string key_of(const std::string& file, ColorEncoding decoding) const;
     const std::shared_ptr<const MipMap>& picture(const std::string& file, ColorEncoding decoding,
                                                  const SourceLocation& place);
+    void make_normal_map(const Object& object, const NormalMap& map, SurfaceModels& surface);
 
     Registry& registry_;
     Diagnostics& diagnostics_;

@@ -195,6 +195,7 @@ struct OwnTables {
     Table<Model> shading, reflection;  // of objects that name none
     Table<LightSource> light;
     Table<Object> object;
+    Table<NormalMap> normal_map, bump_map;
     Table<ParameterTexture> texture;  // of a parameter
     Table<TextureTransform> texture_transform;
     Table<Orbit> orbit;

@@ -17,6 +17,9 @@ namespace candela {
 
 /// The normals from an object's shading model, on the side of each triangle that is its front.
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal);
+/// Tilts them as the surface's picture of normals says, whose texels apply_textures() has put into the
+/// points.
+void tilt_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal);
 
 /// The world around one object, as its models see it.
 class ObjectEnvironment final : public Environment {

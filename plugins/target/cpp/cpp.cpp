@@ -113,6 +113,12 @@ class CppWriter {
             {"MATERIAL_BASE", if_textured(" : Material")},
             {"LIT_TYPE", lit_type()},
             {"LIT", if_textured("own", "o")},
+            {"MAPPED_NORMAL", if_mapped(k_mapped_normal)},
+            {"MAPPED", fmt::format("{}shading_normal(o, point{}){}", if_mapped("mapped_normal(o, "),
+                                   if_triangles(", triangle"), if_mapped(", normal_texel, point)"))},
+            {"TEXEL_PARAMETER", if_mapped(", vec3 normal_texel")},
+            {"TEXEL_WITHIN", if_mapped(", is_normal_mapped(o) ? normal_texel(o, triangle, b) : vec3(0.0f)")},
+            {"NO_TEXEL", if_mapped(", vec3(0.0f)")},
             {"OWN_PARAMETER", if_textured(", const Material& own")},
             {"OWN_WITHIN", if_textured(", material_within(o, triangle, b)")},
             {"OWN_AT_VERTEX", if_textured(", material_at_vertex(o, v)")},
@@ -136,7 +142,6 @@ class CppWriter {
              tint("(o.mesh.color.empty() ? vec3(1.0f) : o.mesh.color[v])", "texture_at_vertex(o, v)")},
             {"TRIANGLE_OF", if_triangles(k_triangle_of)},
             {"TRIANGLE_PARAMETER", if_triangles(", const Triangle& triangle")},
-            {"TRIANGLE_ARGUMENT", if_triangles(", triangle")},
             {"THIS_TRIANGLE", if_triangles(", triangle_of(o, triangle)")},
             {"NO_TRIANGLE", if_triangles(", {}")},
             {"PICTURE_FILE", std::string(image_file_source())},
@@ -159,6 +164,19 @@ class CppWriter {
         "    const auto p = [&](int k) { return o.mesh.position[static_cast<std::size_t>(v[k])]; };\n"
         "    const auto n = [&](int k) { return o.vertex_normal[static_cast<std::size_t>(v[k])]; };\n"
         "    return {p(0), p(1), p(2), n(0), n(1), n(2)};\n"
+        "}\n\n";
+    static constexpr const char* k_mapped_normal =
+        "// Where light is evaluated for each pixel.\n"
+        "bool is_normal_mapped(const Object& o) { return o.normal_map.texture.levels != nullptr && "
+        "rate_of(o) "
+        "== Rate::pixel; }\n\n"
+        "// The shading model's normal as the object's picture tilts it.\n"
+        "vec3 mapped_normal(const Object& o, vec3 n, vec3 texel, const ShadingPoint& p) {\n"
+        "    if (!is_normal_mapped(o)) return n;\n"
+        "    const NormalMap& map = o.normal_map;\n"
+        "    return map.has_slopes ? normal_from_slopes(texel, map.along_u, map.along_v, n, p.dpdu, p.dpdv) "
+        ": "
+        "normal_from_map(texel, map.along_u, map.along_v, n, p.dpdu, p.dpdv);\n"
         "}\n\n";
     bool is_exposed() const { return scene_.image.exposure != 1; }
     bool is_displayed_plainly() const { return !is_exposed() && scene_.image.tone == ToneCurve::none; }
@@ -187,6 +205,9 @@ class CppWriter {
             std::ranges::any_of(scene_.shadings, [](const auto& m) { return m.needs.triangle; });
         return sees ? text : "";
     }
+
+    /// In a program in which pictures tilt normals.
+    std::string if_mapped(const char* text) const { return has_normal_maps(scene_) ? text : ""; }
 
     /// In a program in which textures give numbers of materials.
     std::string if_textured(std::string text, const char* otherwise = "") const {
@@ -283,6 +304,7 @@ class CppWriter {
                 "    int textured = -1;  // the number of its material in material_at(), if that has "
                 "textures\n";
         if (!scene_.textures.empty()) text += "    ColorTexture texture;\n";
+        if (has_normal_maps(scene_)) text += "    NormalMap normal_map;\n";
         for (const auto& model : scene_.shadings) text += member(model, shading_member(model));
         return text;
     }
@@ -400,6 +422,7 @@ class CppTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .normal_maps = true,
                 .shadows = true,
                 .display = true};
     }

@@ -82,6 +82,16 @@ void CppObjects::add_object(std::size_t index) {
     if (object.color_texture != ExportedObject::k_no_texture)
         text += fmt::format("        o.texture = {{&texture_{}(), {}}};\n", object.color_texture,
                             object.color_texture_repeats);
+    if (object.normal_map != nullptr) {
+        const ExportedNormalMap& map = *object.normal_map;
+        const auto axis = [&](std::size_t at) {
+            return fmt::format("vec2({}, {})", float_text(map.to_uv[at]), float_text(map.to_uv[at + 1]));
+        };
+        text += fmt::format("        o.normal_map = {{{{&texture_{}(), {}}}, {{{}, {}}}, {}, {}, {}}};\n",
+                            map.texture, map.repeats, list(map.placing[0], map.placing[1], map.placing[2]),
+                            list(map.placing[3], map.placing[4], map.placing[5]), map.has_slopes, axis(0),
+                            axis(2));
+    }
     if (scene_.shadings.size() > 1)
         text += fmt::format("        o.shading = Shading::{};\n",
                             shading_enumerator(scene_.shadings[object.shading]));

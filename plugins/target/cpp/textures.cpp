@@ -10,11 +10,22 @@
 
 CANDELA_EMBED(candela_cpp_textures, CANDELA_SOURCE_DIR "/templates/textures.h");
 CANDELA_EMBED(candela_cpp_texture_seen, CANDELA_SOURCE_DIR "/templates/texture_seen.h");
+CANDELA_EMBED(candela_cpp_placed_texture, CANDELA_SOURCE_DIR "/templates/placed_texture.h");
+CANDELA_EMBED(candela_cpp_normal_maps, CANDELA_SOURCE_DIR "/templates/normal_maps.h");
+CANDELA_EMBED(candela_cpp_normal_texel, CANDELA_SOURCE_DIR "/templates/normal_texel.h");
 CANDELA_EMBED(candela_cpp_textured_material, CANDELA_SOURCE_DIR "/templates/textured_material.h");
 
 namespace candela::cpp_target {
 
 using namespace target;
+
+namespace {
+
+constexpr const char* k_placing =
+    "// How a texture is placed: u' = m[0] u + m[1] v + m[2], v' with the other three.\n"
+    "using Placing = std::array<float, 6>;\n\n";
+
+}  // namespace
 
 TextureTexts textures_of(const ExportedScene& scene, const std::string& textured_materials) {
     if (scene.textures.empty()) return {};
@@ -26,13 +37,18 @@ TextureTexts textures_of(const ExportedScene& scene, const std::string& textured
             "    return levels;\n}}\n\n",
             i, title_of(scene.textures[i]), texture_file(i));
     }
+    const bool has_materials = !textured_materials.empty(), has_normals = has_normal_maps(scene);
+    const auto if_placed = [&](const char* text) { return has_materials || has_normals ? text : ""; };
     return {filled(candela_cpp_textures, {{"FILE", std::string(texture_file_source())},
                                           {"KERNEL", std::string(texture_kernel())},
-                                          {"PICTURES", images}}),
-            candela_cpp_texture_seen +
-                (textured_materials.empty()
-                     ? std::string()
-                     : filled(candela_cpp_textured_material, {{"CASES", textured_materials}}))};
+                                          {"PICTURES", images}}) +
+                if_placed(k_placing) +
+                (has_normals ? filled(candela_cpp_normal_maps, {{"KERNEL", std::string(normal_map_kernel())}})
+                             : std::string()),
+            std::string(candela_cpp_texture_seen) + if_placed(candela_cpp_placed_texture) +
+                (has_normals ? candela_cpp_normal_texel : "") +
+                (has_materials ? filled(candela_cpp_textured_material, {{"CASES", textured_materials}})
+                               : std::string())};
 }
 
 const char* readme_of_textures() {

@@ -294,6 +294,7 @@ class OpenGlTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .normal_maps = true,
                 .shadows = true,
                 .display = true};
     }

@@ -41,8 +41,9 @@ constexpr const char* k_load =
     "        for (const char* const file : k_textures) textures_.push_back(make_texture(file));\n";
 
 constexpr const char* k_material_members =
-    "    int material;                                            // in k_materials; -1: no textures\n"
-    "    std::vector<std::pair<std::size_t, bool>> pictures;  // of its material, and whether they repeat\n";
+    "    int material;                                        // in k_materials; -1: no textures\n"
+    "    int normal_map;                                      // in k_normal_maps; -1: none\n"
+    "    std::vector<std::pair<std::size_t, bool>> pictures;  // of both, and whether they repeat\n";
 
 constexpr const char* k_bind =
     "            set_pixel(program, observer, view, height);\n"
@@ -50,24 +51,29 @@ constexpr const char* k_bind =
     "                bind(textures_[static_cast<std::size_t>(object.texture)], object.texture_repeats, "
     "program, \"color_texels\", \"color_texture\", 4);\n";
 
-/// Even a sampler that is not read must not refer to the picture that is being drawn.
+/// Even a sampler that is not read must refer to a texture of its type, and not to the picture that is being
+/// drawn.
 std::string bind_materials(std::size_t most) {
     return fmt::format(
-        "            if (object.material >= 0 && reflection == object.reflection) {{\n"
-        "                if (object.texture < 0) set(program, {{\"color_texels\", Uniform::whole, {{6, 0, "
-        "0}}}});\n"
-        "                for (std::size_t k = 0; k < {}; ++k) {{\n"
-        "                    const bool is_read = k < object.pictures.size();\n"
-        "                    const auto [texture, repeats] = object.pictures[is_read ? k : 0];\n"
-        "                    const std::string number = std::to_string(k), name = \"material_texture_\" + "
-        "number;\n"
-        "                    bind(textures_[texture], repeats, program, \"material_texels_\" + number, name, "
-        "6 + "
-        "static_cast<int>(k));\n"
-        "                    set(program, {{(name + \".unit\").c_str(), Uniform::whole, "
-        "{{static_cast<float>(k + "
-        "1), 0, 0}}}});\n"
+        "            const bool reads_pictures = (object.material >= 0 && reflection == object.reflection) "
+        "|| "
+        "object.normal_map >= 0;\n"
+        "            if (reads_pictures && object.texture < 0) set(program, {{\"color_texels\", "
+        "Uniform::whole, "
+        "{{6, 0, 0}}}});\n"
+        "            for (std::size_t k = 0; k < {} && (reads_pictures || object.texture >= 0); ++k) {{\n"
+        "                const std::string number = std::to_string(k), name = \"material_texture_\" + "
+        "number, "
+        "texels = \"material_texels_\" + number;\n"
+        "                if (!reads_pictures) {{\n"
+        "                    set(program, {{texels.c_str(), Uniform::whole, {{4, 0, 0}}}});\n"
+        "                    continue;\n"
         "                }}\n"
+        "                const auto [texture, repeats] = object.pictures[k < object.pictures.size() ? k : "
+        "0];\n"
+        "                bind(textures_[texture], repeats, program, texels, name, 6 + static_cast<int>(k));\n"
+        "                set(program, {{(name + \".unit\").c_str(), Uniform::whole, {{static_cast<float>(k + "
+        "1), 0, 0}}}});\n"
         "            }}\n",
         most);
 }
@@ -80,11 +86,11 @@ std::string declarations_of(const ExportedScene& scene) {
 }
 
 /// The texts that objects' programs have after their models.
-std::string materials_of(const std::vector<std::string>& materials) {
-    std::string text = "const std::vector<std::string> k_materials = {\n";
-    for (const std::string& material : materials)
-        if (!material.empty()) text += fmt::format("    {},\n", raw(material));
-    return text + "};\n";
+std::string texts_of(const char* name, const std::vector<std::string>& texts) {
+    std::string all = fmt::format("const std::vector<std::string> {} = {{\n", name);
+    for (const std::string& text : texts)
+        if (!text.empty()) all += fmt::format("    {},\n", raw(text));
+    return all + "};\n";
 }
 
 }  // namespace
@@ -101,7 +107,8 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
     return {
         {"TEXTURE_SHADER",
          if_textures(fmt::format("const std::string k_texture = {};\n", raw(glsl.texture))) +
-             if_materials(materials_of(glsl.materials))},
+             if_materials(texts_of("k_materials", glsl.materials) +
+                          texts_of("k_normal_maps", glsl.normal_maps))},
         {"TEXTURE_MEMBERS", if_textures(k_members) + if_materials(k_material_members)},
         {"TEXTURES", has_textures ? declarations_of(scene) : ""},
         {"PUT_TEXTURE", if_textures(corners + k_put_edges)},
@@ -112,16 +119,19 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
         {"MATERIAL_OF",
          if_materials(
              "        const int material = reflection == object.reflection ? object.material : -1;\n")},
-        {"IS_TEXTURED", if_textures(", object.texture >= 0") + if_materials(", material")},
+        {"IS_TEXTURED", if_textures(", object.texture >= 0") + if_materials(", material, object.normal_map")},
         {"TEXTURE_TEXT",
          has_materials
-             ? " (object.texture < 0 && material < 0 ? \"\" : k_texture) + (object.texture < 0 ? \"\" : "
+             ? " (object.texture < 0 && material < 0 && object.normal_map < 0 ? \"\" : k_texture) + "
+               "(object.texture < 0 ? \"\" : "
                "\"#define TEXTURED_COLOR\\n\") +\n                                   (material < 0 ? \"\" : "
                "\"#define TEXTURED_MATERIAL\\n\") +"
              : if_textures(" (object.texture < 0 ? \"\" : k_texture) +")},
         {"MATERIAL_TEXT",
-         if_materials(" + (material < 0 ? \"\" : k_materials[static_cast<std::size_t>(material)])")},
-        {"TEXTURED_KEY", if_textures(", bool") + if_materials(", int")},
+         if_materials(" + (material < 0 ? \"\" : k_materials[static_cast<std::size_t>(material)]) +\n"
+                      "                                   (object.normal_map < 0 ? \"\" : "
+                      "k_normal_maps[static_cast<std::size_t>(object.normal_map)])")},
+        {"TEXTURED_KEY", if_textures(", bool") + if_materials(", int, int")},
         {"TEXTURES_HELD", if_textures("    std::vector<Texture> textures_;\n")}};
 }
 
@@ -129,6 +139,10 @@ std::string texture_members(const ExportedScene& scene, std::size_t index) {
     if (scene.textures.empty()) return "";
     const ExportedObject& object = scene.objects[index];
     const auto is_textured = [](const ExportedObject& o) { return !o.textured_numbers.empty(); };
+    const auto is_mapped = [](const ExportedObject& o) { return o.normal_map != nullptr; };
+    const auto number = [&](const auto& is_one) {
+        return is_one(object) ? std::ranges::count_if(scene.objects.first(index), is_one) : -1;
+    };
     std::string text = object.color_texture == ExportedObject::k_no_texture
                            ? ", -1, true"
                            : fmt::format(", {}, {}", object.color_texture, object.color_texture_repeats);
@@ -137,8 +151,7 @@ std::string texture_members(const ExportedScene& scene, std::size_t index) {
     for (const MaterialPicture& picture : material_pictures(object))
         pictures +=
             fmt::format("{}{{{}, {}}}", pictures.empty() ? "" : ", ", picture.texture, picture.repeats);
-    const auto before = std::ranges::count_if(scene.objects.first(index), is_textured);
-    return text + fmt::format(", {}, {{{}}}", is_textured(object) ? before : -1, pictures);
+    return text + fmt::format(", {}, {}, {{{}}}", number(is_textured), number(is_mapped), pictures);
 }
 
 }  // namespace candela::opengl_target

@@ -177,7 +177,7 @@ Json mesh_json(const ExportedScene& scene, const ExportedMesh& mesh, PageArrays&
             {"color", put(mesh.color)}};
 }
 
-/// The pictures that a material reads, each with whether it repeats.
+/// The pictures that a material or a normal map reads, each with whether it repeats.
 Json pictures_json(const ExportedObject& object) {
     Json pictures = Json::array();
     for (const MaterialPicture& picture : material_pictures(object))
@@ -213,6 +213,7 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
          object.color_texture == ExportedObject::k_no_texture ? Json() : Json(object.color_texture)},
         {"texture_repeats", object.color_texture_repeats},
         {"material", object.textured_numbers.empty() ? Json() : Json(index)},
+        {"normal_map", object.normal_map == nullptr ? Json() : Json(index)},
         {"material_pictures", pictures_json(object)},
         {"mesh", mesh_json(scene, mesh, arrays)}};
     if (scene.has_shadows) {
@@ -334,6 +335,7 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
                    {"library", whole_glsl_prelude()},
                    {"texture", glsl.texture},
                    {"materials", glsl.materials},
+                   {"normal_maps", glsl.normal_maps},
                    {"lights", glsl.lights},
                    {"vertex", glsl.vertex},
                    {"fragment", glsl.fragment},
@@ -367,6 +369,7 @@ class WebGlTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .normal_maps = true,
                 .shadows = true,
                 .display = true};
     }

@@ -8,7 +8,7 @@ uniform vec3 object_color;
 vec3 intensity_at(vec3 place, ShadingPoint point, vec3 color, float facing) {
 @PREPARATION@
     Surface s;
-    s.normal = facing * shading_normal(point);
+@NORMAL@
     s.to_observer = is_orthographic ? towards_observer : normalize(eye - place);
     s.tangent = vec3(0.0);
 #ifdef NEEDS_TANGENT

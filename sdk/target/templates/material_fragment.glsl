@@ -1,4 +1,4 @@
-#ifdef TEXTURED_MATERIAL
+#ifdef READS_PICTURES
 #ifdef LIT_AT_FRAGMENT
 vec3 lit_place;
 vec2 lit_uv;

@@ -207,10 +207,10 @@ vec3 lights_at(const @LIT_TYPE@& o, const Surface& s, const Receiver& r@PLACE_PA
     return sum;
 }
 
-// The intensity that a place of an object sends to the observer.
-vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@TINT_PARAMETER@@OWN_PARAMETER@, bool is_back@AT_PARAMETER@) {
+@MAPPED_NORMAL@// The intensity that a place of an object sends to the observer.
+vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGLE_PARAMETER@@TEXEL_PARAMETER@@TINT_PARAMETER@@OWN_PARAMETER@, bool is_back@AT_PARAMETER@) {
     Surface s;
-    s.normal = (is_back ? -1.0f : 1.0f) * shading_normal(o, point@TRIANGLE_ARGUMENT@);
+    s.normal = (is_back ? -1.0f : 1.0f) * @MAPPED@;
     s.to_observer = k_is_perspective ? normalize(k_eye - place) : -k_forward;
 @TANGENT@
     s.color = o.color@TIMES_TINT@;
@@ -239,7 +239,7 @@ vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back@PIXEL_
     p.uv = blend(m.uv, m, triangle, b);
     p.dpdu = blend(m.dpdu, m, triangle, b);
     p.dpdv = blend(m.dpdv, m, triangle, b);
-    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@TINT_WITHIN@@OWN_WITHIN@, is_back@AT_TRIANGLE@);
+    return intensity_at(o, blend(m.position, m, triangle, b), p@THIS_TRIANGLE@@TEXEL_WITHIN@@TINT_WITHIN@@OWN_WITHIN@, is_back@AT_TRIANGLE@);
 }
 
 vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back@TREE_PARAMETER@) {
@@ -250,7 +250,7 @@ vec3 intensity_at_vertex(const Object& o, std::size_t v, bool is_back@TREE_PARAM
     p.uv = o.mesh.uv.empty() ? vec2(0.0f) : o.mesh.uv[v];
     p.dpdu = at(o.mesh.dpdu);
     p.dpdv = at(o.mesh.dpdv);
-    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@TINT_AT_VERTEX@@OWN_AT_VERTEX@, is_back@AT_VERTEX@);
+    return intensity_at(o, o.mesh.position[v], p@NO_TRIANGLE@@NO_TEXEL@@TINT_AT_VERTEX@@OWN_AT_VERTEX@, is_back@AT_VERTEX@);
 }
 
 vec3 intensity_seen(const Object& o, const Seen& seen@PIXEL_PARAMETER@) {

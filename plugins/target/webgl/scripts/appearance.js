@@ -80,7 +80,8 @@ export function appearanceOf(settings) {
             shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
             hasColorTexture: object.texture !== null,
             material: reflection === object.reflection ? object.material : null,
-            isTextured: object.texture !== null || object.material !== null,
+            normalMap: object.normal_map,
+            isTextured: object.texture !== null || object.material !== null || object.normal_map !== null,
             uniforms: [
                 ["object_index", { kind: "int", value: i }],
                 ["is_shadowed", { kind: "int", value: hasShadows && object.receives_shadows ? 1 : 0 }],

@@ -148,16 +148,17 @@ export class Renderer {
     }
 
     /** Binds the textures of an object that has some; returns the uniforms with which they are read. */
-    textureUniforms(index, { material }) {
+    textureUniforms(index, { material, normalMap }) {
         const { texture, texture_repeats, material_pictures } = this.scene.objects[index];
         const uniforms = texture === null ? {} : this.textures[texture].bind(TEXTURE_UNIT, texture_repeats);
-        if (material !== null) {
-            // Even a sampler that is not read must not refer to the picture that is being drawn.
-            if (texture === null) uniforms.color_texels = { kind: "int", value: MATERIAL_UNIT };
-            for (let i = material_pictures.length; i < this.mostPictures; ++i)
-                uniforms[`material_texels_${i}`] = { kind: "int", value: MATERIAL_UNIT };
-            material_pictures.forEach(([picture, repeats], i) => Object.assign(uniforms,
-                this.textures[picture].bind(MATERIAL_UNIT + i, repeats, `material_texels_${i}`, `material_texture_${i}`, i + 1)));
+        const pictures = material !== null || normalMap !== null ? material_pictures : [];
+        pictures.forEach(([picture, repeats], i) => Object.assign(uniforms,
+            this.textures[picture].bind(MATERIAL_UNIT + i, repeats, `material_texels_${i}`, `material_texture_${i}`, i + 1)));
+        // Even a sampler that is not read must refer to a texture of its type, and not to the picture that is being drawn.
+        const other = { kind: "int", value: texture !== null ? TEXTURE_UNIT : MATERIAL_UNIT };
+        if (texture !== null || pictures.length > 0) {
+            if (texture === null) uniforms.color_texels = other;
+            for (let i = pictures.length; i < this.mostPictures; ++i) uniforms[`material_texels_${i}`] = other;
         }
         return Object.entries(uniforms);
     }

@@ -16,13 +16,15 @@ namespace candela::target {
 /// If an object of the scene has a material with textures, `texture` is for objects that have such a material
 /// or a texture of their colour, or both, and is followed by "#define TEXTURED_COLOR" for the latter. An
 /// object with a material that has textures, and its own reflection model, has "#define TEXTURED_MATERIAL"
-/// before that model, and its text of `materials` behind its shading model.
+/// before that model, and its text of `materials` behind its shading model; one with a normal map has its
+/// text of `normal_maps` there.
 struct GlslParts {
     std::string prelude;
     std::string texture;  // empty unless an object of the scene has one
     std::string lights;
     std::vector<std::string> reflections, shadings;  // in the scene's order
     std::vector<std::string> materials;              // of objects; empty unless textures give numbers of it
+    std::vector<std::string> normal_maps;            // of objects; empty unless a picture tilts its normals
     std::string vertex, fragment;
     std::string screen, accumulate, encode;
 };
@@ -87,8 +89,9 @@ bool sees_triangles(const ExportedScene& scene);
 /// The blocks of the scene's light models.
 std::vector<LightBlock> light_blocks(const ExportedScene& scene);
 
-/// A picture that an object's material reads. Shaders read number i of them from `material_texels_<i>`, which
-/// is described by `material_texture_<i>` like `color_texture`, with `unit` = i + 1 as well.
+/// A picture that an object's material or normal map reads. Shaders read number i of them from
+/// `material_texels_<i>`, which is described by `material_texture_<i>` like `color_texture`, with `unit` = i
+/// + 1 as well.
 struct MaterialPicture {
     std::size_t texture = 0;  // index into ExportedScene::textures
     bool repeats = true;

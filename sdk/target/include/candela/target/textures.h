@@ -58,6 +58,14 @@ MaterialStatements material_statements(
 /// _width(), _height() and _texel().
 std::string_view texture_kernel();
 
+/// Whether a picture tilts the normals of an object.
+bool has_normal_maps(const ExportedScene& scene);
+/// The function of normal_map_kernel() that tilts a normal: its arguments are a texel, the two rows of
+/// `to_uv`, the shading model's normal, dp/du and dp/dv.
+const char* normal_function(const ExportedNormalMap& map);
+/// Its functions are written in the kernel language.
+std::string_view normal_map_kernel();
+
 /// A part of a C++17 program that defines decoded(): it reads pictures from its source's folder and makes
 /// their levels, texture_levels().
 std::string_view texture_file_source();
