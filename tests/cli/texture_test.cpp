@@ -156,3 +156,43 @@ TEST_CASE("explain shows the values that a material has at a pixel, and the texe
     CHECK(holds(result.out, "kd = [0.2, 0.4, 1]  texel (0, 0) of dot.ppm"));
     CHECK(holds(result.out, "shininess = 5  texel (0, 0) of dot.ppm"));
 }
+
+TEST_CASE("mistakes in a normal map or a bump map are reported at their place") {
+    const Folder d({{"n.ppm", k_image}});
+    expect(render("normal_map = \"n.ppm\"", d), 3,
+           {"scene.toml:11:14: error: 'normal_map' of object 'ring' is the string \"n.ppm\"; expected a "
+            "table, such "
+            "as { texture = \"normals.png\" }"});
+    expect(render("bump_map = { texture = \"n.ppm\" }", d), 3, {"scene.toml:11:12: error: ", "'height'"});
+    expect(render("normal_map = { texture = \"n.ppm\", height = 1 }", d), 3,
+           {"scene.toml:11:36: error: ", "'height'", "texture", "scale", "wrap", "transform"});
+    expect(render("normal_map = { texture = \"m.ppm\" }", d), 3,
+           {"scene.toml:11:26: error: 'm.ppm' does not exist", "did you mean 'n.ppm'?"});
+    expect(render("normal_map = { texture = \"n.ppm\", transform = { scale = [1, 2, 3] } }", d), 3,
+           {"'scale' has 3 numbers; expected two, along u and v"});
+    expect(
+        render("normal_map = { texture = \"n.ppm\" }\nbump_map = { texture = \"n.ppm\", height = 1 }", d), 3,
+        {"scene.toml:12:1: error: object 'ring' has a 'normal_map' and a 'bump_map'; expected one of them"});
+    d.write("stl.stl",
+            "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
+            "endfacet\nendsolid s\n");
+    expect(render("file = \"stl.stl\"\nnormal_map = { texture = \"n.ppm\" }", d, "mesh"), 3,
+           {"scene.toml:12:26: error: object 'ring' has no texture coordinates, which a texture needs",
+            "remove normal_map"});
+}
+
+TEST_CASE("a normal map without effect draws a warning, and a target without normal maps refuses it") {
+    const Folder d({{"n.ppm", k_image}});
+    const std::string map = "bump_map = { texture = \"n.ppm\", height = 0.1 }";
+    expect(render(map + "\nshading = \"gouraud\"", d), 0,
+           {"scene.toml:11:24: warning: 'bump_map' of object 'ring' has no effect: shading/gouraud evaluates "
+            "light once per vertex"});
+    CHECK(render(map, d).err.find("warning") == std::string::npos);
+    expect(d.run("generate scene.toml --target povray -o pov"), 1,
+           {"object 'ring' has a bump_map, which this target does not support"});
+    expect(d.run("explain scene.toml --pixel 8,2"), 0, {"N_shading = [", "slopes = [", "of n.ppm", "N = ["});
+    // Written again, it is the same scene.
+    const CommandResult written = d.run("check scene.toml --print");
+    succeeded(written);
+    CHECK(written.out.find("height = 0.1") != std::string::npos);
+}
