@@ -14,6 +14,7 @@
 #include "candela/target/building.h"
 #include "candela/target/files.h"
 #include "candela/target/literals.h"
+#include "candela/target/mean_materials.h"
 #include "candela/target/renderers.h"
 #include "candela/target/text_template.h"
 #include "candela/target_plugin.h"
@@ -91,13 +92,15 @@ class PovRayTarget final : public Target {
                 .triangle = true,
                 .vertex_colors = true,
                 .textures = true,
+                .textured_numbers = true,
                 .shadows = true};
     }
     const char* main_file() const noexcept override { return "scene.pov"; }
     bool can_draw() const noexcept override { return true; }
 
     void write(const ExportedScene& scene, FileSink& files) const override {
-        target::write(files, main_file(), scene_text(scene, files));
+        const target::MeanMaterials means(scene, files);
+        target::write(files, main_file(), scene_text(means.scene(), files));
         target::write(files, "scene.ini", options_text(scene.image));
     }
 

@@ -233,6 +233,32 @@ ks = [0.4, 0.2, 0.1]
     expect(verify(folder, scene, {"--approximate", "--set=image.color_management=\"" + encoding + '"'}), 0);
 }
 
+TEST_CASE("target/povray: a parameter's texture becomes its mean, if the user accepts that") {
+    const Folder folder({{"wall.obj",
+                          "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                          "f 1/1 2/2 3/3 4/4\n"}});
+    // Of 0.4 and 0.9, because 0.1 + 255 / 255 is clamped: 0.1 + 77 / 255.
+    folder.write("p.ppm", std::string("P6\n2 1\n255\n") + '\x4d' + std::string(2, '\0') + '\xff' +
+                              std::string(2, '\0'));
+    const std::string scene = k_head + R"(observer = {position = [0, 0, 3], look_at = [0, 0, 0]}
+reflection = {model = "lambert"}
+[[light]]
+type = "directional"
+direction = [0, 0, -1]
+[[object]]
+name = "wall"
+type = "mesh"
+file = "wall.obj"
+color = [255, 255, 255]
+[object.material]
+ka = 0
+kd = { texture = "p.ppm", channel = "r", offset = 0.1 }
+)";
+    expect(generate(folder, scene), 1, {"the texture of 'kd' of object wall becomes its mean"});
+    succeeded(folder.run("generate scene.toml --target povray -o made --approximate --quiet"));
+    CHECK(holds(folder.read("made/scene.pov"), "diffuse 0.70098"));
+}
+
 TEST_CASE(
     "target/povray: with shadows, light is blocked where it enters a solid object, and on both sides of an "
     "open one") {

@@ -119,7 +119,7 @@ class Writer {
         const auto ka = rgb_value(model, values, "ka"), kd = rgb_value(model, values, "kd");
         if (std::string_view(model.id) != "reflection/lambert" || !ka || !kd ||
             !is_smooth(scene_.shadings[object.shading]) ||
-            object.color_texture != ExportedObject::k_no_texture)
+            object.color_texture != ExportedObject::k_no_texture || !object.textured_numbers.empty())
             return {};
         Vec3 ambient{};
         for (const ExportedLight& light : scene_.lights)
@@ -150,6 +150,8 @@ class Writer {
                        {"shading", struct_json(shading, object.shadings[object.shading])}}},
                      {"texture", is_textured ? Json(object.color_texture) : Json()},
                      {"texture_repeats", object.color_texture_repeats},
+                     {"material", object.textured_numbers.empty() ? Json() : Json(index)},
+                     {"material_pictures", pictures_json(object)},
                      {"mesh", std::move(mesh)}};
         if (scene_.has_shadows) {
             json["is_solid"] = bool{is_solid_[index]};
@@ -160,13 +162,20 @@ class Writer {
         return json;
     }
 
+    /// The pictures that a material reads, each with whether it repeats.
+    static Json pictures_json(const ExportedObject& object) {
+        Json pictures = Json::array();
+        for (const MaterialPicture& picture : material_pictures(object))
+            pictures.push_back({picture.texture, picture.repeats});
+        return pictures;
+    }
+
     Json shaders_json() const {
         const GlslParts glsl = glsl_of(scene_, k_logarithmic_depth);
-        return {{"prelude", glsl.prelude},       {"texture", glsl.texture},
-                {"lights", glsl.lights},         {"reflections", glsl.reflections},
-                {"shadings", glsl.shadings},     {"vertex", glsl.vertex},
-                {"fragment", glsl.fragment},     {"screen", glsl.screen},
-                {"accumulate", glsl.accumulate}, {"encode", glsl.encode}};
+        return {{"prelude", glsl.prelude},         {"texture", glsl.texture},   {"lights", glsl.lights},
+                {"reflections", glsl.reflections}, {"shadings", glsl.shadings}, {"materials", glsl.materials},
+                {"vertex", glsl.vertex},           {"fragment", glsl.fragment}, {"screen", glsl.screen},
+                {"accumulate", glsl.accumulate},   {"encode", glsl.encode}};
     }
 
     Json textures_json() {

@@ -50,6 +50,7 @@ class ThreeTarget final : public Target {
                 .triangle = true,
                 .vertex_colors = true,
                 .textures = true,
+                .textured_numbers = true,
                 .shadows = true,
                 .display = true};
     }

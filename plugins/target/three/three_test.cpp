@@ -148,6 +148,23 @@ intensity = 0.25
     CHECK(page["objects"][0]["lambert"]["emissive"] == Json{0.125, 0.125, 0.125});
 }
 
+TEST_CASE("target/three: a kernel takes numbers of its material from textures", "[programs]") {
+    require_three();
+    Folder folder = folder_with_wall();
+    folder.write(
+        "wall.obj",
+        "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+    // The transform puts the centre of the first texel in the middle.
+    folder.write("p.ppm", std::string("P6\n4 1\n255\n\x33\x66\xcc") + std::string(9, '\xff'));
+    std::string scene = wall("[[light]]\ntype = \"directional\"\ndirection = [0, 0, -1]\n");
+    const std::string constant = "kd = 1, ka = 0.5";
+    scene.replace(scene.find(constant), constant.size(),
+                  "ka = 0, kd = { texture = \"p.ppm\", channel = \"b\", scale = 0.75, wrap = \"clamp\", "
+                  "transform = { scale = [0.01, 1], offset = [0.12, 0] } }");
+    CHECK(generated(folder, scene)["objects"][0]["lambert"].is_null());
+    CHECK(drawn_in_the_middle(folder, scene) == grey(0.75 * 204 / 255));
+}
+
 TEST_CASE("target/three: kernels compute what three.js computes differently", "[whole]") {
     require_three();
     const Folder folder;

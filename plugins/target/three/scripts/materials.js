@@ -3,6 +3,7 @@ import { Color, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3, IntType, M
 import { bytesOf } from "../../../../sdk/web/arrays.js";
 import { shadowTexels } from "../../../../sdk/web/shadow_tree.js";
 import { levelsOf, sizeWithLevels } from "../../../../sdk/web/texture_levels.js";
+import { isTextured } from "./geometry.js";
 
 export const HEADER = "precision highp float;\nprecision highp int;\n";
 
@@ -31,8 +32,8 @@ function shadowUniforms({ shadows, objects, image }) {
     };
 }
 
-/** A texture's uniforms, by name. */
-function textureUniforms(picture, isSrgb) {
+/** A picture's texels, and what shaders know of it. */
+function pictureOf(picture, isSrgb) {
     const [width, height] = sizeWithLevels(picture), texels = new Uint16Array(4 * width * height);
     const levels = levelsOf(picture, isSrgb);
     for (const { place: [left, top], width: columns, height: rows, texels: part } of levels) {
@@ -40,7 +41,7 @@ function textureUniforms(picture, isSrgb) {
             texels.set(part.subarray(4 * columns * y, 4 * columns * (y + 1)), 4 * (width * (top + y) + left));
     }
     return {
-        color_texels: { value: dataTexture(texels, width, height, RGBAIntegerFormat, UnsignedShortType, "RGBA16UI") },
+        texels: { value: dataTexture(texels, width, height, RGBAIntegerFormat, UnsignedShortType, "RGBA16UI") },
         size: { width: picture.width, height: picture.height, levels: levels.length },
     };
 }
@@ -66,21 +67,39 @@ export class KernelMaterials {
         this.lights.light_table = { value: tableTexture(Int32Array, bytesOf(json.light_table), 4, json.light_table_width, RGBAIntegerFormat, IntType, "RGBA32I") };
         this.lights.table_numbers = { value: tableTexture(Float32Array, bytesOf(json.tables), 1, json.table_width, RedFormat, FloatType, "R32F") };
         this.shadows = shadowUniforms(json);
-        this.textures = json.textures.map((picture) => textureUniforms(picture, json.image.is_srgb));
+        this.mostPictures = Math.max(0, ...json.objects.map((object) => object.material_pictures.length));
+        this.textures = json.textures.map((picture) => pictureOf(picture, json.image.is_srgb));
+    }
+
+    /** The uniforms with which an object's textures are read. */
+    textureUniforms({ texture, texture_repeats, material, material_pictures }) {
+        const uniforms = {};
+        if (texture !== null) {
+            const { texels, size } = this.textures[texture];
+            Object.assign(uniforms, { color_texels: texels, color_texture: { value: { ...size, repeats: texture_repeats, unit: 0 } } });
+        }
+        if (material === null) return uniforms;
+        // Even a sampler that is not read needs a texture of its type.
+        const other = this.textures[material_pictures[0][0]].texels;
+        if (texture === null) uniforms.color_texels = other;
+        for (let i = 0; i < this.mostPictures; ++i) uniforms[`material_texels_${i}`] = other;
+        for (const [i, [picture, repeats]] of material_pictures.entries()) {
+            const { texels, size } = this.textures[picture];
+            uniforms[`material_texels_${i}`] = texels;
+            uniforms[`material_texture_${i}`] = { value: { ...size, repeats, unit: i + 1 } };
+        }
+        return uniforms;
     }
 
     of(object) {
-        const { shaders } = this.json, isTextured = object.texture !== null;
-        const common = HEADER + (object.closed ? "" : "#define TWO_SIDED\n") + [
-            shaders.prelude, isTextured ? shaders.texture : "", shaders.lights, shaders.reflections[object.reflection],
-            shaders.shadings[object.shading], "",
+        const { shaders } = this.json, hasMaterial = object.material !== null;
+        const common = HEADER + (object.closed ? "" : "#define TWO_SIDED\n") +
+            (hasMaterial ? "#define TEXTURED_MATERIAL\n" : "") + (object.texture !== null ? "#define TEXTURED_COLOR\n" : "") + [
+            shaders.prelude, isTextured(object) ? shaders.texture : "", shaders.lights, shaders.reflections[object.reflection],
+            shaders.shadings[object.shading], hasMaterial ? shaders.materials[object.material] : "", "",
         ].join("\n");
-        const uniforms = { ...this.seen, ...this.lights, ...this.shadows };
+        const uniforms = { ...this.seen, ...this.lights, ...this.shadows, ...this.textureUniforms(object) };
         for (const [name, value] of Object.entries(object.uniforms)) uniforms[name] = { value };
-        if (isTextured) {
-            const { color_texels, size } = this.textures[object.texture];
-            Object.assign(uniforms, { color_texels, color_texture: { value: { ...size, repeats: object.texture_repeats } } });
-        }
         return new RawShaderMaterial({
             glslVersion: GLSL3, vertexShader: common + shaders.vertex, fragmentShader: common + shaders.fragment, uniforms, side: sideOf(object),
         });

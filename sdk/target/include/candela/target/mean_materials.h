@@ -1,0 +1,38 @@
+// Materials with textures, for renderers that have only numbers in their place.
+#pragma once
+
+#include <vector>
+
+#include "candela/target.h"
+
+namespace candela::target {
+
+/// The mean of a number that a picture gives.
+float mean_of(const ExportedScene& scene, const ExportedTexturedNumber& number);
+
+/// The values of an object's own reflection model as an instance receives them, with the means of those that
+/// pictures give.
+std::vector<ParamValue> mean_values(const ExportedScene& scene, const ExportedObject& object);
+
+/// Reports that the picture of a parameter, index in the object's own reflection model, becomes its mean.
+void approximate_by_mean(const ExportedScene& scene, const ExportedObject& object, std::size_t parameter,
+                         FileSink& files);
+
+/// A scene whose materials have the means of their pictures.
+class MeanMaterials {
+  public:
+    /// Refers to `scene`. Reports each parameter that had a picture.
+    MeanMaterials(const ExportedScene& scene, FileSink& files);
+    MeanMaterials(const MeanMaterials&) = delete;
+    MeanMaterials& operator=(const MeanMaterials&) = delete;
+
+    const ExportedScene& scene() const noexcept { return scene_; }
+
+  private:
+    ExportedScene scene_;
+    std::vector<ExportedObject> objects_;
+    std::vector<std::vector<ExportedValues>> materials_;
+    std::vector<std::vector<ParamValue>> values_;
+};
+
+}  // namespace candela::target

@@ -1,0 +1,53 @@
+#include "candela/target/mean_materials.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace candela::target {
+
+float mean_of(const ExportedScene& scene, const ExportedTexturedNumber& number) {
+    const std::span<const std::uint16_t> texels = scene.textures[number.texture].levels.front().texels;
+    double sum = 0;
+    for (std::size_t i = number.texel_channel; i < texels.size(); i += 4) {
+        const float value = number.offset + number.scale * (static_cast<float>(texels[i]) / 65535.0f);
+        sum += double{std::min(std::max(value, number.minimum), number.maximum)};
+    }
+    return static_cast<float>(sum / (static_cast<double>(texels.size()) / 4));
+}
+
+std::vector<ParamValue> mean_values(const ExportedScene& scene, const ExportedObject& object) {
+    const std::span<const ParamValue> own = object.materials[object.reflection].runtime;
+    std::vector<ParamValue> values(own.begin(), own.end());
+    for (const ExportedTexturedNumber& number : object.textured_numbers)
+        values[number.parameter].number[number.channel] = mean_of(scene, number);
+    return values;
+}
+
+void approximate_by_mean(const ExportedScene& scene, const ExportedObject& object, std::size_t parameter,
+                         FileSink& files) {
+    const char* const name = scene.reflections[object.reflection].plugin->parameters[parameter].name;
+    files.approximate(
+        fmt::format("the texture of '{}' of object {} becomes its mean", name, object.label).c_str());
+}
+
+MeanMaterials::MeanMaterials(const ExportedScene& scene, FileSink& files)
+    : scene_(scene), objects_(scene.objects.begin(), scene.objects.end()) {
+    materials_.reserve(objects_.size());
+    values_.reserve(objects_.size());
+    for (ExportedObject& object : objects_) {
+        if (object.textured_numbers.empty()) continue;
+        for (const ExportedTexturedNumber& number : object.textured_numbers)
+            approximate_by_mean(scene, object, number.parameter, files);
+        auto& materials = materials_.emplace_back(object.materials.begin(), object.materials.end());
+        materials[object.reflection].runtime = values_.emplace_back(mean_values(scene, object));
+        object.materials = materials;
+        object.textured_numbers = {};
+    }
+    scene_.objects = objects_;
+}
+
+}  // namespace candela::target
