@@ -80,7 +80,9 @@ class Writer {
             mesh.dpdu && shading.rate != ShadingRate::face &&
             is_anisotropic(scene_.reflections[object.reflection], object.materials[object.reflection]);
         if (has_tangents) attributes["TANGENT"] = document_.add_tangents(mesh.dpdu, normals, count);
-        if (mesh.uv && (has_tangents || object.color_texture != ExportedObject::k_no_texture))
+        const bool is_textured =
+            object.color_texture != ExportedObject::k_no_texture || !object.textured_numbers.empty();
+        if (mesh.uv && (has_tangents || is_textured))
             attributes["TEXCOORD_0"] = document_.add_texture_coordinates(mesh.uv, count);
         if (mesh.color) attributes["COLOR_0"] = document_.add_vectors(mesh.color, count);
         const std::size_t indices = document_.add_indices(mesh.indices);
@@ -108,6 +110,7 @@ class GltfTarget final : public Target {
                 .triangle = true,
                 .vertex_colors = true,
                 .textures = true,
+                .textured_numbers = true,
                 .shadows = true,  // programs that show the file cast their own, and expose it
                 .display = true};
     }

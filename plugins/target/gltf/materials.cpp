@@ -5,15 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "candela/color.h"
+#include "candela/target/mean_materials.h"
 #include "candela/target/renderers.h"
 #include "metallic_roughness.h"
 
@@ -98,37 +97,7 @@ Surface surface_of(const ExportedReflection& model, const ExportedValues& values
     return result;
 }
 
-std::string bytes_of(const char* file) {
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) throw std::runtime_error(fmt::format("the texture '{}' cannot be read", file));
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-const char* media_type(std::string_view content, const char* file) {
-    if (content.starts_with("\x89PNG\r\n")) return "image/png";
-    if (content.starts_with("\xff\xd8\xff")) return "image/jpeg";
-    throw std::runtime_error(fmt::format(
-        "the texture '{}' is neither a PNG nor a JPEG file; glTF supports no other formats", file));
-}
-
 }  // namespace
-
-std::size_t Materials::texture_of(const ExportedObject& object) {
-    auto image = images_.find(object.color_texture);
-    if (image == images_.end()) {
-        const char* const file = scene_.textures[object.color_texture].file;
-        const std::string content = bytes_of(file);
-        const std::size_t view = document_.add_bytes(content, ViewUse::image);
-        const std::size_t index =
-            document_.add("images", {{"bufferView", view}, {"mimeType", media_type(content, file)}});
-        image = images_.emplace(object.color_texture, index).first;
-    }
-    constexpr int k_linear = 9729, k_trilinear = 9987, k_clamp = 33071, k_repeat = 10497;
-    const int wrap = object.color_texture_repeats ? k_repeat : k_clamp;
-    const std::size_t sampler = document_.add(
-        "samplers", {{"magFilter", k_linear}, {"minFilter", k_trilinear}, {"wrapS", wrap}, {"wrapT", wrap}});
-    return document_.add("textures", {{"sampler", sampler}, {"source", image->second}});
-}
 
 Json Materials::approximate(const ExportedReflection& model, const ExportedValues& values, Vec3 color) {
     const Surface surface = surface_of(model, values, color, files_);
@@ -149,12 +118,20 @@ Json Materials::approximate(const ExportedReflection& model, const ExportedValue
 
 std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
     const ExportedReflection& model = scene_.reflections[object.reflection];
-    const ExportedValues& values = object.materials[object.reflection];
+    const std::vector<ParamValue> means = target::mean_values(scene_, object);
+    ExportedValues values = object.materials[object.reflection];
+    values.runtime = means;
     const Rgb decoded_color = decoded(object.color, scene_.image.color_management);
     const Vec3 color{decoded_color.r, decoded_color.g, decoded_color.b};
     const bool is_unlit = std::string_view(model.id) == "reflection/unlit";
     const auto exact = metallic_roughness_material(model, values, color, document_);
     Json material = exact ? *exact : approximate(model, values, color);
+    if (exact) {
+        maps_.add(object, means, material);
+    } else {
+        for (const ExportedTexturedNumber& number : object.textured_numbers)
+            target::approximate_by_mean(scene_, object, number.parameter, files_);
+    }
     material["name"] = object.label;
     if (is_unlit) {
         // The rest is for programs that do not read the extension.
@@ -162,7 +139,8 @@ std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
         document_.use_extension("KHR_materials_unlit");
     }
     if (object.color_texture != ExportedObject::k_no_texture)
-        material["pbrMetallicRoughness"]["baseColorTexture"]["index"] = texture_of(object);
+        material["pbrMetallicRoughness"]["baseColorTexture"]["index"] =
+            pictures_.texture_of(pictures_.file_of(object.color_texture), object.color_texture_repeats);
     if (!is_closed) material["doubleSided"] = true;
     return document_.add("materials", std::move(material));
 }

@@ -2,11 +2,12 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 
 #include "candela/math.h"
 #include "candela/target.h"
 #include "document.h"
+#include "pictures.h"
+#include "texture_maps.h"
 
 namespace candela::gltf_target {
 
@@ -23,12 +24,12 @@ class Materials {
   private:
     /// The nearest to a model that glTF does not have.
     Json approximate(const ExportedReflection& model, const ExportedValues& values, Vec3 color);
-    std::size_t texture_of(const ExportedObject& object);
 
     const ExportedScene& scene_;
     Document& document_;
     FileSink& files_;
-    std::map<std::size_t, std::size_t> images_;  // by the scene's texture
+    Pictures pictures_{scene_, document_};
+    TextureMaps maps_{scene_, document_, pictures_, files_};
 };
 
 }  // namespace candela::gltf_target
