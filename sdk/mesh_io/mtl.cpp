@@ -73,7 +73,16 @@ class MaterialReader {
         if (keyword == "ka") return color(rest, to.ka);
         if (keyword == "kd") return color(rest, to.kd);
         if (keyword == "ks") return color(rest, to.ks);
-        if (keyword == "map_kd") return texture(rest, to);
+        if (keyword == "map_kd") {
+            MtlMap map = texture(rest);
+            to.texture = std::move(map.file);
+            to.clamps = map.clamps;
+            return;
+        }
+        if (keyword == "map_pr" || keyword == "map_pm") {
+            (keyword == "map_pr" ? to.roughness_map : to.metallic_map) = texture(rest);
+            return;
+        }
         const std::vector<double> numbers = numbers_from(rest);
         const double first = numbers.empty() ? 0 : numbers[0];
         if (keyword == "ns") {
@@ -88,7 +97,9 @@ class MaterialReader {
                 note("the light that materials emit is left out");
         } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" ||
                    keyword == "disp" || keyword == "decal" || keyword == "refl") {
-            note(fmt::format("textures other than colour textures are left out, such as '{}'", keyword));
+            note(fmt::format(
+                "textures other than those of colour, roughness and metalness are left out, such as '{}'",
+                keyword));
         } else if (std::optional<double>* const value = physical(keyword, to)) {
             if (!numbers.empty()) *value = first;
         } else if (keyword == "tf") {
@@ -121,7 +132,8 @@ class MaterialReader {
     }
 
     /// Options precede the name, which may contain blanks.
-    void texture(std::string_view rest, MtlMaterial& to) {
+    MtlMap texture(std::string_view rest) {
+        MtlMap map;
         while (rest.starts_with('-')) {
             std::string_view after = rest;
             const std::string option = lower(word_from(after));
@@ -132,7 +144,8 @@ class MaterialReader {
             if (!takes_numbers && !takes_word) break;
             if (takes_word) {
                 const std::string value = lower(word_from(after));
-                if (option == "-clamp") to.clamps = value == "on";
+                if (option == "-clamp") map.clamps = value == "on";
+                if (option == "-imfchan" && (value == "g" || value == "b")) map.channel = value[0];
             } else {
                 for (int i = 0; i < 3; ++i) {
                     std::string_view next = after;
@@ -144,7 +157,8 @@ class MaterialReader {
             }
             rest = after;
         }
-        to.texture = rest;
+        map.file = rest;
+        return map;
     }
 
     MaterialLibrary library_;

@@ -9,6 +9,13 @@
 namespace mesh_io {
 
 /// A material in the terms of the file.
+/// A picture of numbers.
+struct MtlMap {
+    std::string file;     // as the library names it; empty: none
+    bool clamps = false;  // at its edges
+    char channel = 'r';   // r, g or b
+};
+
 struct MtlMaterial {
     std::string name;                // with a possible comment
     std::vector<double> ka, kd, ks;  // three numbers; empty if absent
@@ -20,6 +27,7 @@ struct MtlMaterial {
     std::optional<double> roughness{}, metallic{}, sheen{};  // Pr, Pm, Ps
     std::optional<double> coat{}, coat_roughness{};          // Pc, Pcr
     std::optional<double> anisotropy{}, rotation{};          // aniso; anisor, in turns
+    MtlMap roughness_map{}, metallic_map{};                  // map_Pr, map_Pm
 };
 
 struct MaterialLibrary {

@@ -203,6 +203,27 @@ TEST_CASE("a material that says how rough or metallic it is becomes metallic-rou
     rendered(folder, "a.obj");
 }
 
+TEST_CASE("pictures of roughness and metalness in MTL files become textures of the parameters") {
+    const Folder folder;
+    folder.write("p.ppm", "P6\n2 1\n255\n\x33\x66\x99\xcc\xcc\xcc");
+    folder.write("a.mtl",
+                 "newmtl m\nKd 1 1 1\nPr 0.5\nPm 0\nmap_Pr p.ppm\nmap_Pm -clamp on -imfchan g p.ppm\n");
+    folder.write("a.obj", square("a.mtl", "m"));
+    const CommandResult imported = succeeded(folder.run("import a.obj -o -"));
+    INFO(imported.out << imported.err);
+    CHECK(holds(imported.out,
+                "ka        = { texture = \"p.ppm\", channel = \"g\", scale = -0.46, offset = 0.96, wrap = "
+                "\"clamp\" }\n"
+                "metallic  = { texture = \"p.ppm\", channel = \"g\", wrap = \"clamp\" }\n"
+                "roughness = { texture = \"p.ppm\", channel = \"r\", scale = 0.5 }\n"));
+    CHECK_FALSE(holds(imported.out, "# Note"));
+    rendered(folder, "a.obj");
+    folder.write("a.mtl", "newmtl m\nPr 0.5\nmap_Pr no.ppm\n");
+    const CommandResult broken = succeeded(folder.run("import a.obj -o -"));
+    CHECK(holds(broken.out, "roughness = 0.5\n"));
+    CHECK(holds(broken.err, "the texture 'no.ppm' of material 'm' does not exist"));
+}
+
 TEST_CASE("a texture's factor of zero becomes one") {
     const Folder folder;
     folder.write("red.ppm", red_ppm());

@@ -117,10 +117,18 @@ Means means_of(const candela::DecodedImage& image) {
         means.stored[c] /= static_cast<double>(pixels);
         means.linear[c] /= static_cast<double>(pixels);
     }
+    for (std::size_t c = 0; c < 3; ++c) {
+        bool are_equal = true;
+        for (std::size_t i = 0; i < all && are_equal; ++i)
+            are_equal = image.values[3 * i + c] == image.values[c];
+        means.are_equal[c] = are_equal;
+    }
     if (!image.opacity.empty()) {
         double sum = 0;
         for (const float value : image.opacity) sum += static_cast<double>(value);
         means.opacity = sum / static_cast<double>(all);
+        means.is_opacity_equal =
+            std::ranges::all_of(image.opacity, [&](float value) { return value == image.opacity.front(); });
     }
     return means;
 }
@@ -137,6 +145,14 @@ bool OpacityMap::is_cut_by(double level) const {
 }
 
 std::string OpacityMap::pgm() const { return fmt::format("P5\n{} {}\n255\n", width, height) + bytes; }
+
+std::string opacity_ppm(const candela::DecodedImage& image) {
+    std::string file = fmt::format("P6\n{} {}\n255\n", image.width, image.height);
+    file.reserve(file.size() + 3 * image.opacity.size());
+    for (const float value : image.opacity)
+        file.append(3, static_cast<char>(std::lround(255 * std::clamp(value, 0.0f, 1.0f))));
+    return file;
+}
 
 OpacityMap opacity_of(const candela::DecodedImage& image) {
     OpacityMap map;

@@ -31,6 +31,9 @@ struct Means {
     std::array<double, 3> stored{};  // as stored in the file
     std::array<double, 3> linear{};  // of linear intensities
     double opacity = 1;
+    // Whether all pixels have the mean:
+    std::array<bool, 3> are_equal{};
+    bool is_opacity_equal = true;
 };
 
 Means means_of(const candela::DecodedImage& image);
@@ -49,5 +52,8 @@ struct OpacityMap {
 };
 
 OpacityMap opacity_of(const candela::DecodedImage& image);
+
+/// A picture's whole opacity as a grey picture that image plugins read, a binary pixmap.
+std::string opacity_ppm(const candela::DecodedImage& image);
 
 }  // namespace importing

@@ -190,7 +190,10 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     if (!model.images.empty() && !geometry.has_uv) {
         model.note("its textures are left out; it has no texture coordinates");
         model.images.clear();
-        for (Material& material : model.materials) material.image.reset();
+        for (Material& material : model.materials) {
+            material.image.reset();
+            material.maps.clear();
+        }
     }
     for (const Image& image : model.images)
         setting.images.push_back(image.content.empty()

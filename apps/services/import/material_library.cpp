@@ -122,10 +122,27 @@ std::vector<double> MaterialLibraries::coefficients(const std::vector<double>& v
 }
 
 bool MaterialLibraries::is_physical(const mesh_io::MtlMaterial& material) {
-    return material.roughness || material.metallic || material.sheen || material.coat;
+    return material.roughness || material.metallic || material.sheen || material.coat ||
+           !material.roughness_map.file.empty() || !material.metallic_map.file.empty();
 }
 
-void MaterialLibraries::become_metallic_roughness(const mesh_io::MtlMaterial& from, Material& to) {
+void MaterialLibraries::add(const mesh_io::MtlMap& map, const MeasuredImage& picture, const char* parameter,
+                            double scale, double offset, Material& to) {
+    const auto rounded = [](double x) { return std::round(1e4 * x) / 1e4; };
+    const std::size_t channel = map.channel == 'g' ? 1 : map.channel == 'b' ? 2 : 0;
+    const auto at =
+        std::ranges::find(to.values, parameter, &std::pair<std::string, std::vector<double>>::first);
+    at->second = {rounded(offset + scale * picture.means.stored[channel])};
+    to.maps.push_back({.parameter = parameter,
+                       .image = picture.index,
+                       .channel = std::string(1, map.channel),
+                       .scale = {rounded(scale)},
+                       .offset = {rounded(offset)},
+                       .clamps = map.clamps});
+}
+
+void MaterialLibraries::become_metallic_roughness(const Description& description, Material& to) {
+    const mesh_io::MtlMaterial& from = description.material;
     const auto share = [&](const std::optional<double>& value, double otherwise) {
         return std::round(1e4 * std::clamp(value.value_or(otherwise), 0.0, 1.0)) / 1e4;
     };
@@ -138,6 +155,21 @@ void MaterialLibraries::become_metallic_roughness(const mesh_io::MtlMaterial& fr
     to.values = {{"ka", {std::round(1e4 * (0.96 - 0.46 * metallic)) / 1e4}},
                  {"metallic", {metallic}},
                  {"roughness", {share(from.roughness, 0.5)}}};
+    // Like a colour, a number multiplies its picture; some programs write 0 next to one.
+    const auto factor = [&](const std::optional<double>& value) {
+        const double number = share(value, 1);
+        return number > 0 ? number : 1;
+    };
+    if (const auto& map = from.roughness_map; !map.file.empty()) {
+        if (const auto picture = image(map.file, to.name, description))
+            add(map, *picture, "roughness", factor(from.roughness), 0, to);
+    }
+    if (const auto& map = from.metallic_map; !map.file.empty()) {
+        if (const auto picture = image(map.file, to.name, description)) {
+            add(map, *picture, "ka", -0.46 * factor(from.metallic), 0.96, to);
+            add(map, *picture, "metallic", factor(from.metallic), 0, to);
+        }
+    }
     if (share(from.coat, 0) > 0) {
         to.values.push_back({"clearcoat", {share(from.coat, 0)}});
         to.values.push_back({"clearcoat_roughness", {share(from.coat_roughness, 0)}});
@@ -157,11 +189,11 @@ Material MaterialLibraries::material(const std::string& name) {
     const mesh_io::MtlMaterial& d = description.material;
     Material material{.name = name};
     if (!d.texture.empty()) {
-        material.image = image(name, description);
+        if (const auto picture = image(d.texture, name, description)) material.image = picture->index;
         material.clamps = d.clamps;
     }
     if (is_physical(d)) {
-        become_metallic_roughness(d, material);
+        become_metallic_roughness(description, material);
         return material;
     }
     if (d.illumination == 0)
@@ -195,14 +227,16 @@ Material MaterialLibraries::material(const std::string& name) {
     return material;
 }
 
-std::optional<std::size_t> MaterialLibraries::image(const std::string& material, const Description& of) {
+std::optional<MaterialLibraries::MeasuredImage> MaterialLibraries::image(const std::string& name,
+                                                                         const std::string& material,
+                                                                         const Description& of) {
     const auto say = [&](const char* kind, std::string_view of_one, std::string_view of_many,
                          std::string_view rest = "") {
-        const std::string which = fmt::format("'{}' of material '{}'", of.material.texture, material);
+        const std::string which = fmt::format("'{}' of material '{}'", name, material);
         model_.count(kind, fmt::format("the texture {} {}{}", which, of_one, rest),
                      fmt::format("{{}} textures {}, the first of them {}{}", of_many, which, rest));
     };
-    const auto found = find_named(of.folder, of.material.texture);
+    const auto found = find_named(of.folder, name);
     if (!found) {
         say("missing textures", "does not exist", "do not exist");
         return std::nullopt;
@@ -219,6 +253,7 @@ std::optional<std::size_t> MaterialLibraries::image(const std::string& material,
         say("renamed textures", "is read from", "are read from files with other names",
             fmt::format(" '{}'", found->path.filename().string()));
     Image image{file};
+    Means means;
     try {
         // A scene is UTF-8 and could not name the file.
         if (candela::first_invalid_byte(file.string())) {
@@ -228,6 +263,7 @@ std::optional<std::size_t> MaterialLibraries::image(const std::string& material,
         }
         const ReadImage read = read_image(image, registry_);
         image.brightness = brightness_of(read.pixels);
+        means = means_of(read.pixels);
         if (!read.other_format.empty())
             say("misnamed textures",
                 fmt::format("is read as {}, according to its content", read.other_format),
@@ -237,7 +273,7 @@ std::optional<std::size_t> MaterialLibraries::image(const std::string& material,
         return std::nullopt;
     }
     model_.images.push_back(std::move(image));
-    return known->second = model_.images.size() - 1;
+    return known->second = MeasuredImage{model_.images.size() - 1, means};
 }
 
 }  // namespace importing::obj

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "import/images.h"
 #include "import/model.h"
 #include "import/readers.h"
 #include "mesh_io/mtl.h"
@@ -38,15 +39,26 @@ class MaterialLibraries {
         std::filesystem::path folder;  // of its library, which its texture's name is relative to
     };
 
+    /// A picture of the model, and its means.
+    struct MeasuredImage {
+        std::size_t index = 0;
+        Means means{};
+    };
+
     bool read_if_there(std::string_view name);
     void read(const std::filesystem::path& file);
     /// Null if there is none.
     const Description* find(const std::string& name) const;
     static bool is_physical(const mesh_io::MtlMaterial& material);
     /// Fills in a material that says how rough or metallic it is.
-    void become_metallic_roughness(const mesh_io::MtlMaterial& from, Material& to);
+    void become_metallic_roughness(const Description& from, Material& to);
+    /// Makes offset + scale times a channel of a picture the values of a parameter.
+    static void add(const mesh_io::MtlMap& map, const MeasuredImage& picture, const char* parameter,
+                    double scale, double offset, Material& to);
     std::vector<double> coefficients(const std::vector<double>& value, double otherwise);
-    std::optional<std::size_t> image(const std::string& material, const Description& of);
+    /// The picture of that name.
+    std::optional<MeasuredImage> image(const std::string& file, const std::string& material,
+                                       const Description& of);
 
     Model& model_;
     const Source& source_;
@@ -54,8 +66,8 @@ class MaterialLibraries {
     std::set<std::string, std::less<>> named_;  // by mtllib statements
     std::set<std::filesystem::path> known_files_;
     std::map<std::string, Description, std::less<>> descriptions_;
-    std::map<std::string, std::string, std::less<>> commented_;           // names without their comments
-    std::map<std::filesystem::path, std::optional<std::size_t>> images_;  // indices in the model, by file
+    std::map<std::string, std::string, std::less<>> commented_;             // names without their comments
+    std::map<std::filesystem::path, std::optional<MeasuredImage>> images_;  // by file
 };
 
 }  // namespace importing::obj

@@ -61,14 +61,34 @@ struct Image {
     double brightness = 1;       // the mean of its pixels' largest channels, linear
 };
 
+/// How a picture lies on a surface: texture coordinates are scaled, rotated, then moved.
+struct Placing {
+    std::array<double, 2> scale{1, 1};
+    double rotation = 0;  // degrees, counter-clockwise
+    std::array<double, 2> offset{0, 0};
+
+    friend bool operator==(const Placing&, const Placing&) = default;
+};
+
+/// A picture from which a parameter takes its value at each point: offset + scale * texel.
+struct ParameterMap {
+    std::string parameter;
+    std::size_t image = 0;                    // index in Model::images
+    std::string channel{};                    // r, g or b; empty: all three, encoded like colours
+    std::vector<double> scale{1}, offset{0};  // one number or three
+    bool clamps = false;                      // the picture is clamped at its edges
+    Placing placing{};
+};
+
 struct Material {
     std::string name;  // may be empty
     std::string reflection = "phong";
     Vector color{255, 255, 255};                                        // 0-255
     std::vector<std::pair<std::string, std::vector<double>>> values{};  // parameters of the reflection model
-    std::optional<std::size_t> image{};                                 // index in Model::pictures
-    bool clamps = false;                                                // the picture is clamped at its edges
-    std::optional<std::size_t> cutout{};                                // index in Model::cutouts
+    std::vector<ParameterMap> maps{};     // of parameters whose means are in `values`
+    std::optional<std::size_t> image{};   // index in Model::images
+    bool clamps = false;                  // the picture is clamped at its edges
+    std::optional<std::size_t> cutout{};  // index in Model::cutouts
     double cutout_level = 0.5;
 };
 

@@ -220,11 +220,38 @@ class Writer {
             add("ks", "0.2");
             add("shininess", "40.0");
         } else {
-            for (const auto& [name, value] : material->values)
-                add(name, value.size() == 3 ? vector_text({value[0], value[1], value[2]}) : real(value[0]));
+            for (const auto& [name, value] : material->values) {
+                const auto map = std::ranges::find(material->maps, name, &ParameterMap::parameter);
+                add(name, map != material->maps.end() && setting_.is_textured ? text_of(*map)
+                                                                              : numbers_text(value));
+            }
         }
         end();
     }
+    static std::string numbers_text(const std::vector<double>& v) {
+        return v.size() == 3 ? vector_text({v[0], v[1], v[2]}) : real(v[0]);
+    }
+    static std::string pair_text(const std::array<double, 2>& v) {
+        return fmt::format("[{}, {}]", real(v[0]), real(v[1]));
+    }
+
+    /// An inline table of what is not the default.
+    std::string text_of(const ParameterMap& map) const {
+        std::string text = fmt::format("{{ texture = {}", candela::toml_text(setting_.images[map.image]));
+        const auto add_entry = [&](const char* key, const std::string& value) {
+            text += fmt::format(", {} = {}", key, value);
+        };
+        if (!map.channel.empty()) add_entry("channel", candela::toml_text(map.channel));
+        if (map.scale != std::vector<double>{1}) add_entry("scale", numbers_text(map.scale));
+        if (map.offset != std::vector<double>{0}) add_entry("offset", numbers_text(map.offset));
+        if (map.clamps) add_entry("wrap", "\"clamp\"");
+        if (map.placing != Placing{})
+            add_entry("transform", fmt::format("{{ scale = {}, rotation = {}, offset = {} }}",
+                                               pair_text(map.placing.scale), real(map.placing.rotation),
+                                               pair_text(map.placing.offset)));
+        return text + " }";
+    }
+
     void begin_material() { text_ += "[object.material]\n"; }
 
     const Model& model_;

@@ -1,0 +1,235 @@
+#include "import/gltf_textures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+import candela.api;
+import candela.util;
+
+namespace importing::gltf {
+
+namespace {
+
+const Json* transform_of(const Json& info) {
+    return find(object_of(info, "extensions"), "KHR_texture_transform");
+}
+
+/// KHR_texture_transform scales, rotates and moves coordinates whose v points downwards, in a scene it points
+/// upwards.
+Placing placing_of(const Json& transform) {
+    constexpr double k_most = 1e6;
+    const auto pair = [&](const char* key, double otherwise) {
+        std::vector<double> values = numbers(transform, key, 2);
+        if (values.empty()) values.assign(2, otherwise);
+        for (double& x : values) x = std::clamp(x, -k_most, k_most);
+        return values;
+    };
+    const std::vector<double> scale = pair("scale", 1), offset = pair("offset", 0);
+    const double turns = number(transform, "rotation", 0) / (2 * std::numbers::pi);
+    const double angle = 2 * std::numbers::pi * std::remainder(turns, 1);
+    const auto rounded = [](double x) { return std::round(1e6 * x) / 1e6 + 0.0; };
+    return {.scale = {scale[0], scale[1]},
+            .rotation = rounded(angle * 180 / std::numbers::pi),
+            .offset = {rounded(offset[0] + std::sin(angle) * scale[1]),
+                       rounded(1 - offset[1] - std::cos(angle) * scale[1])}};
+}
+
+double rounded(double x) { return std::round(1e4 * x) / 1e4; }
+
+const char* name_of(Channel channel) {
+    switch (channel) {
+        case Channel::green:
+            return "g";
+        case Channel::blue:
+            return "b";
+        case Channel::rgb:
+            return "";
+        default:
+            return "r";
+    }
+}
+
+/// One number if all are equal.
+std::vector<double> shortened(std::vector<double> value) {
+    for (double& x : value) x = rounded(x);
+    if (std::ranges::all_of(value, [&](double x) { return x == value[0]; })) value.resize(1);
+    return value;
+}
+
+}  // namespace
+
+Textures::Textures(Container& container, candela::Registry& registry, Model& model)
+    : container_(container), json_(container.json()), registry_(registry), model_(model) {}
+
+std::optional<Textures::Placed> Textures::texture(const Json& from, const char* name,
+                                                  const std::string& material) {
+    const Json* const info = find(from, name);
+    if (info == nullptr) return std::nullopt;
+    const Json* const transform = transform_of(*info);
+    std::optional<std::size_t> set = index_of(*info, "texCoord");
+    if (transform != nullptr && find(*transform, "texCoord") != nullptr)
+        set = index_of(*transform, "texCoord");
+    if (set.value_or(0) != 0) {
+        model_.count("texture coordinates", "a texture that uses further texture coordinates is left out",
+                     "{} textures that use further texture coordinates are left out");
+        return std::nullopt;
+    }
+    MeasuredImage* const image = image_of(*info, material);
+    if (image == nullptr) return std::nullopt;
+    return Placed{.image = image,
+                  .clamps = clamps(*info),
+                  .placing = transform != nullptr ? placing_of(*transform) : Placing{}};
+}
+
+Textures::MeasuredImage* Textures::show(const Json& from, const char* name, const std::string& material,
+                                        Material& to) {
+    const auto placed = texture(from, name, material);
+    if (!placed) return nullptr;
+    // Some exporters write a transform that changes nothing.
+    if (placed->placing != Placing{})
+        model_.count("KHR_texture_transform",
+                     "the extension 'KHR_texture_transform' of a colour texture is left out",
+                     "the extension 'KHR_texture_transform' of {} colour textures is left out");
+    to.clamps = placed->clamps;
+    to.image = index_of_image(*placed->image);
+    return placed->image;
+}
+
+std::vector<double> Textures::map(const Placed& picture, Channel channel, const char* parameter,
+                                  std::vector<double> scale, std::vector<double> offset, Material& to) {
+    MeasuredImage& image = *picture.image;
+    const Means& means = image.means;
+    std::vector<double> mean;
+    bool is_constant = std::ranges::all_of(scale, [](double x) { return x == 0; });
+    if (channel == Channel::rgb) {
+        for (std::size_t k = 0; k < 3; ++k)
+            mean.push_back(offset[std::min(k, offset.size() - 1)] +
+                           scale[std::min(k, scale.size() - 1)] * means.linear[k]);
+        is_constant |= std::ranges::all_of(means.are_equal, [](bool are_equal) { return are_equal; });
+    } else if (channel == Channel::alpha) {
+        mean = {offset[0] + scale[0] * means.opacity};
+        is_constant |= means.is_opacity_equal;
+    } else {
+        const auto k = static_cast<std::size_t>(channel);
+        mean = {offset[0] + scale[0] * means.stored[k]};
+        is_constant |= means.are_equal[k];
+    }
+    if (!is_constant)
+        to.maps.push_back({.parameter = parameter,
+                           .image = channel == Channel::alpha ? index_of_alpha(image) : index_of_image(image),
+                           .channel = name_of(channel),
+                           .scale = shortened(std::move(scale)),
+                           .offset = shortened(std::move(offset)),
+                           .clamps = picture.clamps,
+                           .placing = picture.placing});
+    return mean;
+}
+
+bool Textures::clamps(const Json& info) {
+    const Json& texture = *element(array_of(json_, "textures"), index_of(info, "index"));
+    const Json* const sampler = element(array_of(json_, "samplers"), index_of(texture, "sampler"));
+    if (sampler == nullptr) return false;
+    constexpr std::size_t k_clamp = 33071, k_mirror = 33648, k_repeat = 10497;
+    const std::size_t s = index_of(*sampler, "wrapS").value_or(k_repeat),
+                      t = index_of(*sampler, "wrapT").value_or(k_repeat);
+    if (s == k_mirror || t == k_mirror)
+        model_.note("mirrored repetition of textures becomes plain repetition");
+    if (s != t) model_.note("textures that repeat in only one direction repeat in both");
+    return s == k_clamp && t == k_clamp;
+}
+
+std::size_t Textures::index_of_image(MeasuredImage& image) {
+    if (!image.index) {
+        image.index = model_.images.size();
+        model_.images.push_back(image.file);
+    }
+    return *image.index;
+}
+
+std::size_t Textures::index_of_alpha(MeasuredImage& image) {
+    if (!image.alpha) {
+        image.alpha = model_.images.size();
+        model_.images.push_back(
+            {.file = fmt::format("{}_alpha_{}.ppm", image.file.file.stem().string(), *image.alpha),
+             .content = opacity_ppm(read_image(image.file, registry_).pixels)});
+    }
+    return *image.alpha;
+}
+
+void Textures::cut_out(const Json& material, double factor, MeasuredImage* image, Material& to) {
+    const std::string mode = text_of(material, "alphaMode");
+    if (mode != "MASK" && mode != "BLEND") return;
+    const double level =
+        mode == "BLEND" ? 0.5 : number(material, "alphaCutoff", 0.5) / std::max(factor, 1e-3);
+    const bool is_opaque = factor >= 1 && (image == nullptr || image->opacity.bytes.empty());
+    if (is_opaque || (mode == "MASK" && level <= 0)) return;
+    const bool is_wanted = image != nullptr && level <= 1 && image->opacity.is_cut_by(level) &&
+                           (mode == "MASK" || (factor > level && image->opacity.is_clear_cut));
+    if (is_wanted) {
+        if (!image->cutout) {
+            image->cutout = model_.cutouts.size();
+            model_.cutouts.push_back(
+                {fmt::format("{}_opacity_{}.pgm", image->file.file.stem().string(), model_.cutouts.size()),
+                 image->opacity.pgm()});
+        }
+        to.cutout = image->cutout;
+        to.cutout_level = level;
+        if (mode == "MASK") return;
+        return model_.count("cut-outs", "a transparent material is cut out where its texture is half opaque",
+                            "{} transparent materials are cut out where their textures are half opaque");
+    }
+    const bool is_all_there =
+        mode == "MASK" && level <= 1 && (image == nullptr || image->opacity.is_all(level));
+    if (is_all_there) return;
+    model_.count("opacity", "the opacity of a material is left out; it is opaque",
+                 "the opacity of {} materials is left out; they are opaque");
+}
+
+Textures::MeasuredImage* Textures::image_of(const Json& info, const std::string& material) {
+    const Json* const texture = element(array_of(json_, "textures"), index_of(info, "index"));
+    std::optional<std::size_t> source;
+    if (texture != nullptr) {
+        source = index_of(*texture, "source");
+        // Given two formats, prefer the one that every program reads.
+        for (const char* const extension :
+             {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "KHR_texture_basisu"})
+            if (!source) source = index_of(object_of(object_of(*texture, "extensions"), extension), "source");
+    }
+    if (!source || element(array_of(json_, "images"), source) == nullptr) {
+        model_.count("no textures", fmt::format("the picture of a texture of {} is missing", material),
+                     fmt::format("the pictures of {{}} textures are missing, the first of {}", material));
+        return nullptr;
+    }
+    return image_at(*source, material);
+}
+
+Textures::MeasuredImage* Textures::image_at(std::size_t index, const std::string& material) {
+    const auto [known, is_new] = images_.try_emplace(index);
+    if (!is_new) return known->second ? &*known->second : nullptr;
+    try {
+        Image found = container_.image(index);
+        const auto [pixels, other_format] = read_image(found, registry_);
+        found.brightness = brightness_of(pixels);
+        if (!other_format.empty())
+            model_.count("misnamed pictures",
+                         fmt::format("a texture of {} is read as {}, according to its content", material,
+                                     other_format),
+                         fmt::format("{{}} textures are read according to their content, the first "
+                                     "of {} as {}",
+                                     material, other_format));
+        known->second =
+            MeasuredImage{.file = std::move(found), .means = means_of(pixels), .opacity = opacity_of(pixels)};
+        return &*known->second;
+    } catch (const candela::Error& problem) {
+        model_.count(
+            "pictures", fmt::format("a texture of {} is left out: {}", material, problem.what()),
+            fmt::format("{{}} textures are left out, the first of {}: {}", material, problem.what()));
+        return nullptr;
+    }
+}
+
+}  // namespace importing::gltf

@@ -1,0 +1,67 @@
+// The textures of a glTF file's materials: its pictures, and how materials use them.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "import/gltf_container.h"
+#include "import/images.h"
+#include "import/model.h"
+
+import candela.plugins;
+
+namespace importing::gltf {
+
+/// The channels of a picture that a parameter takes.
+enum class Channel { red, green, blue, alpha, rgb };
+
+class Textures {
+  public:
+    struct MeasuredImage {
+        Image file;
+        Means means;
+        OpacityMap opacity;
+        std::optional<std::size_t> cutout{};  // index in the model
+        std::optional<std::size_t> index{};   // index in the model, once a surface shows it
+        std::optional<std::size_t> alpha{};   // of its opacity as a picture, once a parameter takes that
+    };
+    /// A picture as a material places it.
+    struct Placed {
+        MeasuredImage* image = nullptr;
+        bool clamps = false;
+        Placing placing{};
+    };
+
+    /// Notes losses in `model` and adds pictures to it.
+    Textures(Container& container, candela::Registry& registry, Model& model);
+
+    /// The texture of that name in a part of a material; nothing if there is none, or if it cannot be used,
+    /// which is noted. `material`: as notes name it.
+    std::optional<Placed> texture(const Json& from, const char* name, const std::string& material);
+    /// Uses a material's colour texture for the surface, and returns its image; null if there is none.
+    MeasuredImage* show(const Json& from, const char* name, const std::string& material, Material& to);
+    /// Makes offset + scale * texel the values of a parameter, and returns their mean.
+    std::vector<double> map(const Placed& picture, Channel channel, const char* parameter,
+                            std::vector<double> scale, std::vector<double> offset, Material& to);
+    /// Cuts a surface along the outline of its texture's opacity if the material asks for that.
+    void cut_out(const Json& material, double factor, MeasuredImage* image, Material& to);
+
+  private:
+    /// The image of a texture; null if it cannot be read.
+    MeasuredImage* image_of(const Json& info, const std::string& material);
+    MeasuredImage* image_at(std::size_t index, const std::string& material);
+    bool clamps(const Json& info);
+    std::size_t index_of_image(MeasuredImage& image);
+    std::size_t index_of_alpha(MeasuredImage& image);
+
+    Container& container_;
+    const Json& json_;
+    candela::Registry& registry_;
+    Model& model_;
+    std::map<std::size_t, std::optional<MeasuredImage>> images_;
+};
+
+}  // namespace importing::gltf
