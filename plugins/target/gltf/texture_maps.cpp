@@ -155,7 +155,7 @@ void TextureMaps::add(const ExportedObject& object, std::span<const ParamValue> 
         if (std::string_view(model.id) != map.model) continue;
         std::vector<Source> sources;
         for (const Channel& channel : map.channels) {
-            known.push_back(channel.parameter);
+            known.emplace_back(channel.parameter);
             Source source{.channel = &channel};
             while (name_of(source.parameter) != channel.parameter) ++source.parameter;
             source.mean = values[source.parameter].number[channel.of_parameter];
