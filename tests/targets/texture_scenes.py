@@ -92,8 +92,8 @@ SHAPES = [
 ]
 
 
-def scene_text(reflections, number, has_normals):
-    """The TOML of a scene with a share of the reflection models. `has_normals`: some objects have pictures of normals or heights."""
+def scene_text(reflections, number):
+    """The TOML of a scene with a share of the reflection models."""
     share = reflections[number::SCENES]
     is_perspective = number != 2
     size = "fov = 44" if is_perspective else "height = 4.2"
@@ -110,5 +110,5 @@ def scene_text(reflections, number, has_normals):
             picture = ["fine", "odd", "deep"][(row + column) % 3]
             text += (f'[[object]]\nposition = [{1.3 * (column - 1):.2f}, {1.35 - 1.05 * row:.2f}, {-0.4 * (row == 0):.2f}]\nshading = "{shading}"\n'
                      f'reflection = "{reflection}"\ncolor = [{230 - 20 * row}, 240, {200 + 15 * column}]\ncolor_texture = "{picture}.ppm"\n'
-                     f'color_texture_wrap = {json.dumps(["repeat", "clamp"][(place // 2) % 2])}\n' + (NORMALS[(number + row) % len(NORMALS)] if has_normals else "") + SHAPES[place % len(SHAPES)])
+                     f'color_texture_wrap = {json.dumps(["repeat", "clamp"][(place // 2) % 2])}\n' + NORMALS[(number + row) % len(NORMALS)] + SHAPES[place % len(SHAPES)])
     return text

@@ -37,14 +37,14 @@ def uncovered(catalogue):
     return missing or objects < 96
 
 
-def scene_of(catalogue, what, is_exact, target):
+def scene_of(catalogue, what, is_exact):
     """The text of a scene, and the files that it names."""
     if what.startswith("shadows-"):
         number = int(what.removeprefix("shadows-"))
         return shadow_scenes.scene_text(catalogue.factors(), number, is_exact), shadow_scenes.files()
     if what.startswith("textures-"):
         number = int(what.removeprefix("textures-"))
-        return texture_scenes.scene_text(catalogue.factors()["reflection"], number, target != "three"), texture_scenes.files()
+        return texture_scenes.scene_text(catalogue.factors()["reflection"], number), texture_scenes.files()
     number = int(what)
     return scenes.scene_text(catalogue, scenes.scenes(catalogue)[number], number), {"icosahedron.obj": scenes.OBJ.encode()}
 
@@ -70,7 +70,7 @@ def main():
         return 1 if uncovered(catalogue) else 0
     folder = scratch / f"scene-{what}"
     folder.mkdir(parents=True, exist_ok=True)
-    text, files = scene_of(catalogue, what, is_exact, target)
+    text, files = scene_of(catalogue, what, is_exact)
     for name, content in files.items():
         # Vertex colours only if all targets support them.
         (folder / name).write_bytes(re.sub(rb"(?m)^(v( \S+){3}).*", rb"\1", content) if is_exact or is_own else content)

@@ -119,7 +119,8 @@ class Writer {
         const auto ka = rgb_value(model, values, "ka"), kd = rgb_value(model, values, "kd");
         if (std::string_view(model.id) != "reflection/lambert" || !ka || !kd ||
             !is_smooth(scene_.shadings[object.shading]) ||
-            object.color_texture != ExportedObject::k_no_texture || !object.textured_numbers.empty())
+            object.color_texture != ExportedObject::k_no_texture || !object.textured_numbers.empty() ||
+            object.normal_map != nullptr)
             return {};
         Vec3 ambient{};
         for (const ExportedLight& light : scene_.lights)
@@ -151,6 +152,7 @@ class Writer {
                      {"texture", is_textured ? Json(object.color_texture) : Json()},
                      {"texture_repeats", object.color_texture_repeats},
                      {"material", object.textured_numbers.empty() ? Json() : Json(index)},
+                     {"normal_map", object.normal_map == nullptr ? Json() : Json(index)},
                      {"material_pictures", pictures_json(object)},
                      {"mesh", std::move(mesh)}};
         if (scene_.has_shadows) {
@@ -162,7 +164,7 @@ class Writer {
         return json;
     }
 
-    /// The pictures that a material reads, each with whether it repeats.
+    /// The pictures that a material or a normal map reads, each with whether it repeats.
     static Json pictures_json(const ExportedObject& object) {
         Json pictures = Json::array();
         for (const MaterialPicture& picture : material_pictures(object))
@@ -173,7 +175,7 @@ class Writer {
     Json shaders_json() const {
         const GlslParts glsl = glsl_of(scene_, k_logarithmic_depth);
         return {{"prelude", glsl.prelude},         {"texture", glsl.texture},   {"lights", glsl.lights},
-                {"reflections", glsl.reflections}, {"shadings", glsl.shadings}, {"materials", glsl.materials},
+                {"reflections", glsl.reflections}, {"shadings", glsl.shadings}, {"materials", glsl.materials}, {"normal_maps", glsl.normal_maps},
                 {"vertex", glsl.vertex},           {"fragment", glsl.fragment}, {"screen", glsl.screen},
                 {"accumulate", glsl.accumulate},   {"encode", glsl.encode}};
     }

@@ -51,6 +51,7 @@ class ThreeTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .normal_maps = true,
                 .shadows = true,
                 .display = true};
     }
