@@ -83,6 +83,10 @@ class MaterialReader {
             (keyword == "map_pr" ? to.roughness_map : to.metallic_map) = texture(rest);
             return;
         }
+        if (keyword == "norm" || keyword == "map_bump" || keyword == "bump") {
+            (keyword == "norm" ? to.normal_map : to.bump_map) = texture(rest);
+            return;
+        }
         const std::vector<double> numbers = numbers_from(rest);
         const double first = numbers.empty() ? 0 : numbers[0];
         if (keyword == "ns") {
@@ -95,10 +99,11 @@ class MaterialReader {
         } else if (keyword == "ke") {
             if (std::ranges::any_of(numbers, [](double x) { return x > 0; }))
                 note("the light that materials emit is left out");
-        } else if (keyword.starts_with("map_") || keyword == "bump" || keyword == "norm" ||
-                   keyword == "disp" || keyword == "decal" || keyword == "refl") {
+        } else if (keyword.starts_with("map_") || keyword == "disp" || keyword == "decal" ||
+                   keyword == "refl") {
             note(fmt::format(
-                "textures other than those of colour, roughness and metalness are left out, such as '{}'",
+                "textures other than those of colour, roughness, metalness and normals are left out, such as "
+                "'{}'",
                 keyword));
         } else if (std::optional<double>* const value = physical(keyword, to)) {
             if (!numbers.empty()) *value = first;
@@ -145,6 +150,8 @@ class MaterialReader {
             if (takes_word) {
                 const std::string value = lower(word_from(after));
                 if (option == "-clamp") map.clamps = value == "on";
+                if (const auto numbers = numbers_from(value); option == "-bm" && !numbers.empty())
+                    map.multiplier = numbers[0];
                 if (option == "-imfchan" && (value == "g" || value == "b")) map.channel = value[0];
             } else {
                 for (int i = 0; i < 3; ++i) {

@@ -8,14 +8,15 @@
 
 namespace mesh_io {
 
-/// A material in the terms of the file.
 /// A picture of numbers.
 struct MtlMap {
-    std::string file;     // as the library names it; empty: none
-    bool clamps = false;  // at its edges
-    char channel = 'r';   // r, g or b
+    std::string file;       // as the library names it; empty: none
+    bool clamps = false;    // at its edges
+    char channel = 'r';     // r, g or b
+    double multiplier = 1;  // -bm, of a bump map
 };
 
+/// A material in the terms of the file.
 struct MtlMaterial {
     std::string name;                // with a possible comment
     std::vector<double> ka, kd, ks;  // three numbers; empty if absent
@@ -28,6 +29,7 @@ struct MtlMaterial {
     std::optional<double> coat{}, coat_roughness{};          // Pc, Pcr
     std::optional<double> anisotropy{}, rotation{};          // aniso; anisor, in turns
     MtlMap roughness_map{}, metallic_map{};                  // map_Pr, map_Pm
+    MtlMap normal_map{}, bump_map{};                         // norm; map_bump or bump
 };
 
 struct MaterialLibrary {

@@ -261,6 +261,29 @@ TEST_CASE("maps of specular-glossiness give each point its reflectance and gloss
     });
 }
 
+TEST_CASE("a normal map tilts the normals of a matt surface, as steeply as its scale says") {
+    Picture picture;
+    for (std::size_t i = 0; i < picture.texels.size(); ++i) {
+        const auto x = static_cast<int>(i % 8), y = static_cast<int>(i / 8);
+        picture.texels[i] = {static_cast<std::uint8_t>(90 + 10 * x), static_cast<std::uint8_t>(170 - 9 * y),
+                             static_cast<std::uint8_t>(200 + 3 * x), 255};
+    }
+    GltfSquare file;
+    file.pbr() = {{"metallicFactor", 0}, {"roughnessFactor", 1}};
+    file.material()["extensions"]["KHR_materials_specular"] = {{"specularFactor", 0}};
+    Json map = file.texture(picture.file());
+    map["scale"] = 1.5;
+    file.material()["normalTexture"] = map;
+    const Imported imported = import(file);
+    CHECK_FALSE(holds(imported.scene, "# Note"));
+    require_picture(imported, [&](double u, double v) {
+        const Color texel = picture.at(u, v, true, false);
+        const double x = 1.5 * (2 * texel[0] - 1), y = 1.5 * (2 * texel[1] - 1), z = 2 * texel[2] - 1;
+        const double light = 0.1 + 0.5 * z / std::sqrt(x * x + y * y + z * z);
+        return std::array{light, light, light};
+    });
+}
+
 TEST_CASE("a map whose channel is the same everywhere becomes a number") {
     GltfSquare file, numbers;
     file.pbr() = {{"metallicRoughnessTexture",
@@ -315,6 +338,8 @@ TEST_CASE("maps survive a round trip from glTF to glTF, with the same picture") 
     map["extensions"]["KHR_texture_transform"] = {
         {"scale", {0.5, 2}}, {"rotation", 0.4}, {"offset", {0.3, -0.2}}};
     file.pbr() = {{"roughnessFactor", 0.9}, {"metallicRoughnessTexture", map}};
+    file.material()["normalTexture"] = map;
+    file.material()["normalTexture"]["scale"] = 0.25;
     file.material()["extensions"] = {
         {"KHR_materials_specular", {{"specularTexture", other}, {"specularColorTexture", other}}},
         {"KHR_materials_sheen",

@@ -224,6 +224,26 @@ TEST_CASE("pictures of roughness and metalness in MTL files become textures of t
     CHECK(holds(broken.err, "the texture 'no.ppm' of material 'm' does not exist"));
 }
 
+TEST_CASE("norm is a normal map, and so is a bump map of normals; heights have no unit") {
+    const Folder folder;
+    folder.write("n.ppm", "P6\n2 1\n255\n\x70\x80\xf0\x90\x80\xf0");
+    folder.write("h.ppm", "P6\n2 1\n255\n\x80\x80\x80\x90\x90\x90");
+    folder.write("a.obj", square("a.mtl", "m"));
+    const auto imported = [&](const char* statement) {
+        folder.write("a.mtl", std::string("newmtl m\nKd 1 1 1\n") + statement + "\n");
+        return succeeded(folder.run("import a.obj -o -"));
+    };
+    CHECK(holds(imported("norm -clamp on n.ppm").out,
+                "normal_map          = { texture = \"n.ppm\", wrap = \"clamp\" }\n"));
+    CHECK(holds(imported("map_Bump -bm 0.5 n.ppm").out,
+                "normal_map          = { texture = \"n.ppm\", scale = 0.5 }\n"));
+    const CommandResult heights = imported("bump h.ppm");
+    CHECK_FALSE(holds(heights.out, "normal_map"));
+    CHECK(holds(heights.err, "a bump map is left out, since the unit of its heights is unknown"));
+    imported("norm n.ppm");
+    CHECK_FALSE(holds(rendered(folder, "a.obj").result.err, "warning"));
+}
+
 TEST_CASE("a texture's factor of zero becomes one") {
     const Folder folder;
     folder.write("red.ppm", red_ppm());

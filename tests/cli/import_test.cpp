@@ -240,7 +240,7 @@ TEST_CASE("import translates a glTF file's camera, lights and metallic-roughness
                 "intensity   = 10.0\nposition    = [0.0, 2.0, 3.0]\ndirection   = [0.0, -1.0, 0.0]\n"
                 "inner_angle = 10.0\nouter_angle = 30.0\n"));
     CHECK(holds(result.out, "metallic  = 1.0\nroughness = 0.5\n"));
-    CHECK(holds(result.err, "a normal map is left out"));
+    CHECK(holds(result.err, "the picture of a texture of material 'gold' is missing"));
     expect(folder.run("render a.gltf -o a.ppm"), 0);
 }
 

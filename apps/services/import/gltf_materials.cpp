@@ -87,6 +87,7 @@ Material Materials::metallic_roughness(const Json& from, const std::string& name
     add(map, Channel::blue, "metallic", {metallic}, {0}, result);
     add(map, Channel::green, "roughness", {roughness}, {0}, result);
     add_extensions(extensions, name, result);
+    textures_.tilt_normals(from, name, result);
     textures_.cut_out(from, base[3], image, result);
     note_losses(from);
     return result;
@@ -105,6 +106,7 @@ Material Materials::specular_glossiness(const Json& from, const Json& extension,
     importing::gltf::add(result, "ka", {diffuse + 0.5 * (1 - diffuse)});
     add(map, Channel::rgb, "specular_color", specular, {0}, result);
     add(map, Channel::alpha, "glossiness", {glossiness}, {0}, result);
+    textures_.tilt_normals(from, name, result);
     textures_.cut_out(from, base[3], image, result);
     note_losses(from);
     return result;
@@ -189,8 +191,6 @@ double Materials::direction_in(const Textures::Placed& map) {
 }
 
 void Materials::note_losses(const Json& from) {
-    if (find(from, "normalTexture") != nullptr)
-        model_.count("normal maps", "a normal map is left out", "{} normal maps are left out");
     if (find(from, "occlusionTexture") != nullptr)
         model_.count("occlusion maps", "an occlusion map is left out", "{} occlusion maps are left out");
     const std::vector<double> emission = numbers(from, "emissiveFactor", 3);

@@ -129,6 +129,18 @@ std::vector<double> Textures::map(const Placed& picture, Channel channel, const 
     return mean;
 }
 
+void Textures::tilt_normals(const Json& material, const std::string& name, Material& to) {
+    const auto picture = texture(material, "normalTexture", name);
+    if (!picture) return;
+    constexpr double k_steepest = 1e3;
+    const double scale = number(*find(material, "normalTexture"), "scale", 1);
+    to.normals = ParameterMap{.parameter = {},
+                              .image = index_of_image(*picture->image),
+                              .scale = shortened({std::clamp(scale, -k_steepest, k_steepest)}),
+                              .clamps = picture->clamps,
+                              .placing = picture->placing};
+}
+
 bool Textures::clamps(const Json& info) {
     const Json& texture = *element(array_of(json_, "textures"), index_of(info, "index"));
     const Json* const sampler = element(array_of(json_, "samplers"), index_of(texture, "sampler"));

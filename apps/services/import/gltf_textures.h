@@ -46,6 +46,8 @@ class Textures {
     /// Makes offset + scale * texel the values of a parameter, and returns their mean.
     std::vector<double> map(const Placed& picture, Channel channel, const char* parameter,
                             std::vector<double> scale, std::vector<double> offset, Material& to);
+    /// Uses a material's normal map, if it has one.
+    void tilt_normals(const Json& material, const std::string& name, Material& to);
     /// Cuts a surface along the outline of its texture's opacity if the material asks for that.
     void cut_out(const Json& material, double factor, MeasuredImage* image, Material& to);
 

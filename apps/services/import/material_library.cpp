@@ -184,6 +184,31 @@ void MaterialLibraries::become_metallic_roughness(const Description& description
     }
 }
 
+void MaterialLibraries::tilt_normals(const Description& description, Material& to) {
+    const mesh_io::MtlMaterial& from = description.material;
+    const bool is_bump = from.normal_map.file.empty();
+    const mesh_io::MtlMap& map = is_bump ? from.bump_map : from.normal_map;
+    if (map.file.empty()) return;
+    const auto picture = image(map.file, to.name, description);
+    if (!picture) return;
+    // Many programs write a normal map as a bump map. On average, it is light blue; heights are grey.
+    const auto& mean = picture->means.stored;
+    constexpr double k_near = 0.15, k_least_blue = 0.6;
+    const bool has_normals = std::abs(mean[0] - 0.5) < k_near && std::abs(mean[1] - 0.5) < k_near &&
+                             mean[2] > k_least_blue && mean[2] > mean[0] + k_near / 2;
+    if (is_bump && !has_normals)
+        return model_.count(
+            "bump maps",
+            "a bump map is left out, since the unit of its heights is unknown; an object's "
+            "bump_map has heights in metres",
+            "{} bump maps are left out, since the unit of their heights is unknown; an object's "
+            "bump_map has heights in metres");
+    to.normals = ParameterMap{.parameter = {},
+                              .image = picture->index,
+                              .scale = {is_bump ? std::clamp(map.multiplier, -1e3, 1e3) : 1},
+                              .clamps = map.clamps};
+}
+
 Material MaterialLibraries::material(const std::string& name) {
     const Description& description = *find(name);
     const mesh_io::MtlMaterial& d = description.material;
@@ -192,6 +217,7 @@ Material MaterialLibraries::material(const std::string& name) {
         if (const auto picture = image(d.texture, name, description)) material.image = picture->index;
         material.clamps = d.clamps;
     }
+    tilt_normals(description, material);
     if (is_physical(d)) {
         become_metallic_roughness(description, material);
         return material;

@@ -85,10 +85,11 @@ struct Material {
     std::string reflection = "phong";
     Vector color{255, 255, 255};                                        // 0-255
     std::vector<std::pair<std::string, std::vector<double>>> values{};  // parameters of the reflection model
-    std::vector<ParameterMap> maps{};     // of parameters whose means are in `values`
-    std::optional<std::size_t> image{};   // index in Model::images
-    bool clamps = false;                  // the picture is clamped at its edges
-    std::optional<std::size_t> cutout{};  // index in Model::cutouts
+    std::vector<ParameterMap> maps{};       // of parameters whose means are in `values`
+    std::optional<ParameterMap> normals{};  // a normal map, whose scale makes it steeper
+    std::optional<std::size_t> image{};     // index in Model::images
+    bool clamps = false;                    // the picture is clamped at its edges
+    std::optional<std::size_t> cutout{};    // index in Model::cutouts
     double cutout_level = 0.5;
 };
 

@@ -209,6 +209,8 @@ class Writer {
             add("color_texture", candela::toml_text(setting_.images[*material->image]));
             if (material->clamps) add("color_texture_wrap", "\"clamp\"");
         }
+        if (material != nullptr && material->normals && setting_.is_textured)
+            add("normal_map", text_of(*material->normals));
         if (material != nullptr && material->reflection != reflection_)
             add("reflection", candela::toml_text(material->reflection));
         if (material == nullptr && reflection_ != "phong") add("reflection", "\"phong\"");

@@ -86,7 +86,8 @@ std::size_t Document::add_vectors(ConstVec3Span vectors, std::size_t count) {
     return add_floats(target::interleaved(vectors, count), 3);
 }
 
-std::size_t Document::add_tangents(ConstVec3Span dpdu, ConstVec3Span normals, std::size_t count) {
+std::size_t Document::add_tangents(ConstVec3Span dpdu, ConstVec3Span dpdv, ConstVec3Span normals,
+                                   std::size_t count) {
     std::vector<float> numbers;
     numbers.reserve(4 * count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -95,7 +96,8 @@ std::size_t Document::add_tangents(ConstVec3Span dpdu, ConstVec3Span normals, st
         Vec3 t = dpdu[i] - dot(dpdu[i], n) * n;
         if (!(length(t) > k_least * length(dpdu[i]))) t = aside - dot(aside, n) * n;
         t = (1 / length(t)) * t;
-        numbers.insert(numbers.end(), {t.x, t.y, t.z, 1});
+        const float side = dot(cross(n, t), dpdv[i]) < 0 ? -1.0f : 1.0f;
+        numbers.insert(numbers.end(), {t.x, t.y, t.z, side});
     }
     return add_floats(numbers, 4);
 }

@@ -30,8 +30,10 @@ class Document {
     /// Each returns the index of an accessor.
     std::size_t add_positions(ConstVec3Span positions, std::size_t count);  // with their bounds
     std::size_t add_vectors(ConstVec3Span vectors, std::size_t count);
-    /// Unit vectors along `dpdu`, perpendicular to the normals; any, where it vanishes.
-    std::size_t add_tangents(ConstVec3Span dpdu, ConstVec3Span normals, std::size_t count);
+    /// Unit vectors along `dpdu`, perpendicular to the normals; any, where it vanishes. With the side of the
+    /// normals and tangents on which `dpdv` is.
+    std::size_t add_tangents(ConstVec3Span dpdu, ConstVec3Span dpdv, ConstVec3Span normals,
+                             std::size_t count);
     std::size_t add_texture_coordinates(ConstVec2Span coordinates, std::size_t count);  // v from the bottom
     std::size_t add_indices(std::span<const std::uint32_t> indices);
 

@@ -78,10 +78,12 @@ class Writer {
         if (shading.rate != ShadingRate::face) attributes["NORMAL"] = document_.add_vectors(normals, count);
         const bool has_tangents =
             mesh.dpdu && shading.rate != ShadingRate::face &&
-            is_anisotropic(scene_.reflections[object.reflection], object.materials[object.reflection]);
-        if (has_tangents) attributes["TANGENT"] = document_.add_tangents(mesh.dpdu, normals, count);
-        const bool is_textured =
-            object.color_texture != ExportedObject::k_no_texture || !object.textured_numbers.empty();
+            (object.normal_map != nullptr ||
+             is_anisotropic(scene_.reflections[object.reflection], object.materials[object.reflection]));
+        if (has_tangents)
+            attributes["TANGENT"] = document_.add_tangents(mesh.dpdu, mesh.dpdv, normals, count);
+        const bool is_textured = object.color_texture != ExportedObject::k_no_texture ||
+                                 !object.textured_numbers.empty() || object.normal_map != nullptr;
         if (mesh.uv && (has_tangents || is_textured))
             attributes["TEXCOORD_0"] = document_.add_texture_coordinates(mesh.uv, count);
         if (mesh.color) attributes["COLOR_0"] = document_.add_vectors(mesh.color, count);
@@ -111,6 +113,7 @@ class GltfTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .normal_maps = true,
                 .shadows = true,  // programs that show the file cast their own, and expose it
                 .display = true};
     }

@@ -141,6 +141,7 @@ std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
     if (object.color_texture != ExportedObject::k_no_texture)
         material["pbrMetallicRoughness"]["baseColorTexture"]["index"] =
             pictures_.texture_of(pictures_.file_of(object.color_texture), object.color_texture_repeats);
+    maps_.add_normals(object, material);
     if (!is_closed) material["doubleSided"] = true;
     return document_.add("materials", std::move(material));
 }

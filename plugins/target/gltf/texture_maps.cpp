@@ -78,23 +78,6 @@ constexpr TextureMaps::Map k_maps[] = {
     {k_glossy, k_specular, "specularColorTexture", true, 1, k_specular_color},
 };
 
-/// glTF's transform, whose v points downwards, of one whose v points upwards: (u, v) are scaled, rotated and
-/// moved in both. Nothing for the identity.
-std::optional<Json> transform_json(const float (&placing)[6]) {
-    if (std::ranges::equal(placing, std::array<float, 6>{1, 0, 0, 0, 1, 0})) return std::nullopt;
-    double m[6];
-    std::ranges::copy(placing, m);
-    // Of a scale of zero, the other column has the angle.
-    const double width = std::hypot(m[0], m[3]);
-    const double angle = width > 0 ? std::atan2(m[3], m[0]) : std::atan2(-m[1], m[4]);
-    const double c = std::cos(angle), s = std::sin(angle);
-    const double height = c * m[4] - s * m[1];
-    const auto rounded = [](double x) { return static_cast<float>(std::round(1e7 * x) / 1e7); };
-    return Json{{"offset", {rounded(m[2] - s * height), rounded(1 - c * height - m[5])}},
-                {"rotation", rounded(angle)},
-                {"scale", {rounded(width), rounded(height)}}};
-}
-
 bool is_placed_like(const ExportedTexturedNumber& a, const ExportedTexturedNumber& b) {
     return a.repeats == b.repeats && std::ranges::equal(a.placing, b.placing);
 }
@@ -136,6 +119,22 @@ void set_factor(Json& to, const Channel& channel, std::size_t count, float facto
 }
 
 }  // namespace
+
+std::optional<Json> transform_json(const float (&placing)[6]) {
+    if (std::ranges::equal(placing, std::array<float, 6>{1, 0, 0, 0, 1, 0})) return std::nullopt;
+    // In both, (u, v) are scaled, rotated and moved.
+    double m[6];
+    std::ranges::copy(placing, m);
+    // Of a scale of zero, the other column has the angle.
+    const double width = std::hypot(m[0], m[3]);
+    const double angle = width > 0 ? std::atan2(m[3], m[0]) : std::atan2(-m[1], m[4]);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double height = c * m[4] - s * m[1];
+    const auto rounded = [](double x) { return static_cast<float>(std::round(1e7 * x) / 1e7); };
+    return Json{{"offset", {rounded(m[2] - s * height), rounded(1 - c * height - m[5])}},
+                {"rotation", rounded(angle)},
+                {"scale", {rounded(width), rounded(height)}}};
+}
 
 float TextureMaps::Source::value(float texel) const {
     const float x =
@@ -198,6 +197,31 @@ void TextureMaps::add(const ExportedObject& object, const Map& map, std::vector<
     Json& info = to[map.name];
     info["index"] = pictures_.texture_of(picture->image, first->number->repeats);
     if (auto transform = transform_json(first->number->placing)) {
+        info["extensions"]["KHR_texture_transform"] = std::move(*transform);
+        document_.use_extension("KHR_texture_transform");
+    }
+}
+
+void TextureMaps::add_normals(const ExportedObject& object, Json& material) {
+    if (object.normal_map == nullptr) return;
+    const ExportedNormalMap& map = *object.normal_map;
+    if (map.has_slopes) {
+        files_.approximate(fmt::format("the bump map of object {} is left out", object.label).c_str());
+        return;
+    }
+    auto image = pictures_.file_of(map.texture, false);
+    if (!image) {
+        const ExportedTextureLevel& level = scene_.textures[map.texture].levels.front();
+        std::vector<std::uint8_t> bytes;
+        bytes.reserve(level.texels.size());
+        for (std::size_t i = 0; i < level.texels.size(); ++i)
+            if (i % 4 != 3) bytes.push_back(static_cast<std::uint8_t>((level.texels[i] + 128) / 257));
+        image = pictures_.add(png_of(level.width, level.height, 3, bytes), "image/png");
+    }
+    Json& info = material["normalTexture"];
+    info["index"] = pictures_.texture_of(*image, map.repeats);
+    if (map.scale != 1) info["scale"] = map.scale;
+    if (auto transform = transform_json(map.placing)) {
         info["extensions"]["KHR_texture_transform"] = std::move(*transform);
         document_.use_extension("KHR_texture_transform");
     }

@@ -14,6 +14,10 @@
 
 namespace candela::gltf_target {
 
+/// glTF's transform of a placing, whose v points upwards, while glTF's points downwards. Nothing for the
+/// identity.
+std::optional<Json> transform_json(const float (&placing)[6]);
+
 class TextureMaps {
   public:
     TextureMaps(const ExportedScene& scene, Document& document, Pictures& pictures, FileSink& files)
@@ -22,6 +26,9 @@ class TextureMaps {
     /// Adds maps to a material of glTF's own model, which has the means of the pictures in `values`.
     /// Parameters for which glTF has no map keep their mean, which is reported.
     void add(const ExportedObject& object, std::span<const ParamValue> values, Json& material);
+
+    /// Adds the object's normal map to a material, if it has one; a bump map is left out, which is reported.
+    void add_normals(const ExportedObject& object, Json& material);
 
     struct Channel;
     struct Map;

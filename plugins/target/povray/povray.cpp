@@ -93,6 +93,7 @@ class PovRayTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .normal_maps = true,
                 .shadows = true};
     }
     const char* main_file() const noexcept override { return "scene.pov"; }
@@ -100,6 +101,11 @@ class PovRayTarget final : public Target {
 
     void write(const ExportedScene& scene, FileSink& files) const override {
         const target::MeanMaterials means(scene, files);
+        for (const ExportedObject& object : scene.objects) {
+            if (object.normal_map == nullptr) continue;
+            const char* const what = object.normal_map->has_slopes ? "bump map" : "normal map";
+            files.approximate(fmt::format("the {} of object {} is left out", what, object.label).c_str());
+        }
         target::write(files, main_file(), scene_text(means.scene(), files));
         target::write(files, "scene.ini", options_text(scene.image));
     }

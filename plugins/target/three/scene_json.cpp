@@ -174,10 +174,11 @@ class Writer {
 
     Json shaders_json() const {
         const GlslParts glsl = glsl_of(scene_, k_logarithmic_depth);
-        return {{"prelude", glsl.prelude},         {"texture", glsl.texture},   {"lights", glsl.lights},
-                {"reflections", glsl.reflections}, {"shadings", glsl.shadings}, {"materials", glsl.materials}, {"normal_maps", glsl.normal_maps},
-                {"vertex", glsl.vertex},           {"fragment", glsl.fragment}, {"screen", glsl.screen},
-                {"accumulate", glsl.accumulate},   {"encode", glsl.encode}};
+        return {
+            {"prelude", glsl.prelude},         {"texture", glsl.texture},       {"lights", glsl.lights},
+            {"reflections", glsl.reflections}, {"shadings", glsl.shadings},     {"materials", glsl.materials},
+            {"normal_maps", glsl.normal_maps}, {"vertex", glsl.vertex},         {"fragment", glsl.fragment},
+            {"screen", glsl.screen},           {"accumulate", glsl.accumulate}, {"encode", glsl.encode}};
     }
 
     Json textures_json() {
