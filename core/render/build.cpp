@@ -136,7 +136,8 @@ class SceneBuilder {
                 old != nullptr && old->color == object.color && old->color_texture == object.color_texture &&
                 old->color_texture_wrap == object.color_texture_wrap &&
                 old->normal_map == object.normal_map && old->shading == object.shading &&
-                old->reflection == object.reflection && old->textures == object.textures) {
+                old->reflection == object.reflection && old->textures == object.textures &&
+                old->common == object.common) {
                 solid.surface = std::move(before_->built.objects[i].surface);
                 continue;
             }
@@ -144,11 +145,19 @@ class SceneBuilder {
                 SurfaceModels surface;
                 surface.color = decoded(object.color, encoding());
                 surface.color_texture_wrap = object.color_texture_wrap;
+                set_common(object.common, surface);
                 surface.set_shading(registry_, object.shading, encoding());
                 surface.set_reflection(registry_, object.reflection, encoding());
                 solid.surface = std::move(surface);
             });
         }
+    }
+
+    void set_common(const CommonMaterial& material, SurfaceModels& surface) {
+        surface.emission =
+            material.emission_strength *
+            (material.has_texture("emission") ? Rgb{1, 1, 1} : decoded(material.emission, encoding()));
+        surface.occlusion = material.occlusion;
     }
 
     void make_textures() {

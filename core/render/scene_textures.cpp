@@ -49,18 +49,25 @@ void SceneTextures::make(const Object& object, SurfaceModels& surface) {
         });
     if (surface.material_textures.arrays() > 0) return;
     if (object.normal_map) make_normal_map(object, *object.normal_map, surface);
-    for (const ParameterTexture& texture : object.textures) {
+    const auto read = [&](const ParameterTexture& texture, const Parameter& parameter, const auto& add) {
         reported(diagnostics_, fmt::format("'{}' of object {}", texture.parameter, object.label.text()),
                  texture.place, [&] {
-                     const ParamSet& values = object.reflection.parameters;
-                     const std::size_t index = values.index_of(texture.parameter);
-                     const Parameter& parameter = values.schema()[index];
                      const ColorEncoding decoding = encoding_of(texture, parameter, of_scene_);
-                     surface.material_textures.add(
-                         texture, parameter, index,
-                         {key_of(texture.file, decoding), picture(texture.file, decoding, texture.place),
-                          texture.wrap, texture.transform});
+                     add(PlacedTexture{key_of(texture.file, decoding),
+                                       picture(texture.file, decoding, texture.place), texture.wrap,
+                                       texture.transform});
                  });
+    };
+    const ParamSet& values = object.reflection.parameters;
+    for (const ParameterTexture& texture : object.textures) {
+        const std::size_t index = values.index_of(texture.parameter);
+        read(texture, values.schema()[index], [&](const PlacedTexture& placed) {
+            surface.material_textures.add(texture, values.schema()[index], index, placed);
+        });
+    }
+    for (const ParameterTexture& texture : object.common.textures) {
+        read(texture, material_parameter(texture.parameter),
+             [&](const PlacedTexture& placed) { surface.material_textures.add_common(texture, placed); });
     }
 }
 
@@ -95,9 +102,10 @@ void SceneTextures::make_normal_map(const Object& object, const NormalMap& map, 
 void require_texture_coordinates(const Object& object, Diagnostics& diagnostics) {
     SourceLocation place = object.texture_place;
     std::string what = "color_texture";
-    if (object.color_texture.empty() && !object.textures.empty()) {
-        place = object.textures.front().place;
-        what = fmt::format("the texture of '{}'", object.textures.front().parameter);
+    const auto& textures = object.textures.empty() ? object.common.textures : object.textures;
+    if (object.color_texture.empty() && !textures.empty()) {
+        place = textures.front().place;
+        what = fmt::format("the texture of '{}'", textures.front().parameter);
     } else if (object.color_texture.empty()) {
         place = object.normal_map->place;
         what = object.normal_map->has_heights ? "bump_map" : "normal_map";

@@ -311,6 +311,11 @@ class AnimationReader {
                 return value;
             }
             known = names_in(*plugin->schema, std::move(known));
+            if (is_nested && key.kind == PluginKind::reflection) {
+                if (const Parameter* const p = parameter_named(material_schema().parameters, parts.back()))
+                    return *p;
+                known = names_in(material_schema().parameters, std::move(known));
+            }
             // A model chosen on the command line need not have the parameters of the scene's own.
             if (key.kind == PluginKind::reflection && request_.reflection) is_uncertain = true;
         }

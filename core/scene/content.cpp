@@ -2,6 +2,7 @@ module;
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -40,6 +41,14 @@ Observer fitted(Observer observer, int width, int height) {
     observer.fov =
         static_cast<float>(std::atan(widening * std::tan(observer.fov * k_half_degree)) / k_half_degree);
     return observer;
+}
+
+bool CommonMaterial::has_texture(std::string_view parameter) const {
+    return std::ranges::find(textures, parameter, &ParameterTexture::parameter) != textures.end();
+}
+
+bool CommonMaterial::emits() const {
+    return emission_strength > 0 && (emission != Vec3{} || has_texture("emission"));
 }
 
 bool operator==(const Scene& a, const Scene& b) {

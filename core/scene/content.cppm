@@ -229,6 +229,18 @@ struct NormalMap {
     }
 };
 
+/// The keys of every material, of which its reflection model knows nothing.
+struct CommonMaterial {
+    Vec3 emission{};                           // 0-255; black: the surface emits nothing
+    float emission_strength = 1;               // multiplies it
+    float occlusion = 1;                       // multiplies what is reflected of ambient light
+    std::vector<ParameterTexture> textures{};  // of emission and occlusion
+
+    CANDELA_EXPORT bool has_texture(std::string_view parameter) const;
+    CANDELA_EXPORT bool emits() const;
+    friend bool operator==(const CommonMaterial&, const CommonMaterial&) = default;
+};
+
 struct Object {
     Label label;
     Model shape;
@@ -244,6 +256,7 @@ struct Object {
     Model shading;
     Model reflection;
     std::vector<ParameterTexture> textures{};  // of the reflection model's parameters, in their order
+    CommonMaterial common{};
     SourceLocation place;
     SourceLocation position_place{};  // of its 'position', or of the whole object
     SourceLocation texture_place{};   // of its 'color_texture', or of the whole object
@@ -255,7 +268,7 @@ struct Object {
                a.normal_map == b.normal_map && a.encloses == b.encloses &&
                a.casts_shadows == b.casts_shadows && a.receives_shadows == b.receives_shadows &&
                a.transmits_light == b.transmits_light && a.shading == b.shading &&
-               a.reflection == b.reflection && a.textures == b.textures;
+               a.reflection == b.reflection && a.textures == b.textures && a.common == b.common;
     }
 };
 

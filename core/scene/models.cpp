@@ -146,6 +146,7 @@ void ModelChooser::set_reflection(Object& to, const TableNode& object, const std
                                hints_for("material", tables_.registry())};
     report_unknown_material_keys(material, *plugin, context,
                                  request_.reflection ? model_in_scene(object) : std::nullopt);
+    to.common = take_common(material, *plugin, context);
     to.textures = take_textures(material, *plugin, context.where);
     // A texture that is white somewhere is no reason to warn.
     std::vector<Relation> relations = plugin->manifest.relations;
@@ -185,7 +186,8 @@ bool ModelChooser::belongs_to(const Named& replaced, const std::string& key) {
 void ModelChooser::report_unknown_material_keys(const TableNode& material, const PluginFile& plugin,
                                                 const TableContext& context,
                                                 const std::optional<Named>& replaced) {
-    const std::vector<std::string> known_keys = names_in(plugin.manifest.parameters);
+    const std::vector<std::string> known_keys =
+        names_in(plugin.manifest.parameters, names_in(material_schema().parameters));
     TableNode unknown;
     for (const TableNode::Entry& entry : material.entries) {
         if (std::ranges::find(known_keys, entry.key) != known_keys.end()) continue;

@@ -6,6 +6,7 @@ module;
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -46,27 +47,53 @@ Node factor_of(const ParameterTexture& texture, const Parameter& p, const Source
 
 }  // namespace
 
-/// Replaces each table among the material's values by a number, and returns what the tables say.
 std::vector<ParameterTexture> ModelChooser::take_textures(TableNode& material, const PluginFile& plugin,
                                                           const std::string& where) {
+    const Manifest& manifest = plugin.manifest;
+    return take_textures(material, manifest.parameters, where, [&](const Parameter& p) {
+        if (takes_texture(manifest, p)) return std::string();
+        if (!manifest.surface_needs.varying)
+            return fmt::format("{} has the same parameters at every point", manifest.id());
+        return fmt::format("its value is {}", constraint_text(p));
+    });
+}
+
+CommonMaterial ModelChooser::take_common(TableNode& material, const PluginFile& plugin,
+                                         const TableContext& context) {
+    const Table<CommonMaterial>& keys = own_tables().material;
+    TableNode own;
+    std::erase_if(material.entries, [&](const TableNode::Entry& entry) {
+        const bool is_own = parameter_named(*keys.schema(), entry.key) != nullptr &&
+                            parameter_named(plugin.manifest.parameters, entry.key) == nullptr;
+        if (is_own) own.entries.push_back(entry);
+        return is_own;
+    });
+    CommonMaterial common;
+    if (own.entries.empty()) return common;
+    common.textures = take_textures(own, *keys.schema(), context.where, [](const Parameter& p) {
+        return takes_texture(p) ? std::string() : fmt::format("its value is {}", constraint_text(p));
+    });
+    keys.assign(&own, read_parameters(own, keys.schema(), context, tables_.diagnostics()).set, common);
+    return common;
+}
+
+/// Replaces each table among the material's values by a number, and returns what the tables say.
+std::vector<ParameterTexture> ModelChooser::take_textures(
+    TableNode& material, const std::vector<Parameter>& parameters, const std::string& where,
+    const std::function<std::string(const Parameter&)>& why_not) {
     std::vector<ParameterTexture> textures;
     std::vector<std::string> broken;
-    for (const Parameter& p : plugin.manifest.parameters) {
+    for (const Parameter& p : parameters) {
         TableNode::Entry* const entry = material.find(p.name);
         const TableNode* const table = entry != nullptr ? entry->node.table() : nullptr;
         if (table == nullptr) continue;
         const std::string subject = fmt::format("'{}' in {}", p.name, where);
-        const auto refuse = [&](const std::string& why) {
+        std::optional<ParameterTexture> texture;
+        if (const std::string why = why_not(p); why.empty())
+            texture = texture_in(*table, p, subject, entry->node.place);
+        else
             tables_.diagnostics().error(entry->node.place,
                                         fmt::format("{} cannot have a texture: {}", subject, why));
-        };
-        std::optional<ParameterTexture> texture;
-        if (takes_texture(plugin.manifest, p))
-            texture = texture_in(*table, p, subject, entry->node.place);
-        else if (!plugin.manifest.surface_needs.varying)
-            refuse(fmt::format("{} has the same parameters at every point", plugin.manifest.id()));
-        else
-            refuse(fmt::format("its value is {}", constraint_text(p)));
         if (texture) {
             if (p.type == ParamType::color)
                 std::erase_if(material.entries, [&](const auto& e) { return e.key == p.name; });

@@ -333,7 +333,9 @@ class Reader {
         if (scene_.objects.empty()) {
             diagnostics_.warning(tables_.whole(),
                                  "the scene has no objects: the picture shows only the background");
-        } else if (scene_.lights.empty()) {
+        } else if (scene_.lights.empty() && std::ranges::none_of(scene_.objects, [](const Object& object) {
+                       return object.common.emits();
+                   })) {
             diagnostics_.warning(tables_.whole(), "the scene has no lights: every object is black");
         }
     }

@@ -1,6 +1,7 @@
 // The scene file's own tables and keys, typed in the same way as plugins' parameters.
 module;
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <span>
@@ -274,6 +275,29 @@ Table<Object> object() {
                &Model::name)}};
 }
 
+Table<CommonMaterial> material() {
+    return {
+        {.name = "material",
+         .title = "[object.material]",
+         .meaning = "keys of every material, next to the parameters of its reflection model; a parameter of "
+                    "the same "
+                    "name takes the place of one"},
+        {field(Type::color, "emission",
+               "what the surface emits, added to the light that it reflects; it lights nothing else; a "
+               "texture may give it",
+               &CommonMaterial::emission)
+             .omitted_by_default(),
+         field(Type::real, "emission_strength", "multiplies the emission", &CommonMaterial::emission_strength)
+             .minimum(0)
+             .omitted_by_default(),
+         field(Type::real, "occlusion",
+               "the fraction of ambient light that reaches the surface, such as creases of a mesh; other "
+               "light is not changed; a texture may give it",
+               &CommonMaterial::occlusion)
+             .range(0, 1)
+             .omitted_by_default()}};
+}
+
 Table<ParameterTexture> texture() {
     return {
         {.name = "texture",
@@ -360,6 +384,7 @@ const OwnTables& own_tables() {
                                     .object = object(),
                                     .normal_map = normal_map(),
                                     .bump_map = bump_map(),
+                                    .material = material(),
                                     .texture = texture(),
                                     .texture_transform = texture_transform(),
                                     .orbit = orbit(),
@@ -394,6 +419,14 @@ std::span<const TableSchema> scene_schema() {
     };
     return k_tables;
 }
+
+const TableSchema& material_schema() { return own_tables().material.about(); }
+
+const Parameter& material_parameter(std::string_view name) {
+    return *std::ranges::find(material_schema().parameters, name, &Parameter::name);
+}
+
+bool takes_texture(const Parameter& of_material) { return of_material.name != "emission_strength"; }
 
 const TableSchema& texture_schema() { return own_tables().texture.about(); }
 

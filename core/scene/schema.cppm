@@ -6,6 +6,7 @@ module;
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 export module candela.scene:schema;
@@ -44,6 +45,14 @@ CANDELA_EXPORT std::span<const TableSchema> scene_schema();
 CANDELA_EXPORT const TableSchema& texture_schema();
 /// Whether a parameter of a plugin may have it.
 CANDELA_EXPORT bool takes_texture(const Manifest& plugin, const Parameter& parameter);
+
+/// The keys of [object.material] that belong to every material, unless its model has a parameter of that
+/// name.
+CANDELA_EXPORT const TableSchema& material_schema();
+/// That of them with that name, which must exist.
+CANDELA_EXPORT const Parameter& material_parameter(std::string_view name);
+/// Whether such a key may have a texture.
+CANDELA_EXPORT bool takes_texture(const Parameter& of_material);
 
 /// The keys before all tables; its name is empty.
 CANDELA_EXPORT const TableSchema& top_schema();

@@ -193,14 +193,25 @@ class Writer {
             add(keys.about().name, inline_table(keys, map, map.transform));
         }
         end();
-        if (object.reflection.parameters.schema().empty()) return;
+        if (object.reflection.parameters.schema().empty() && object.common == CommonMaterial{}) return;
         text_ += "[object.material]\n";
-        std::map<std::string, std::string> textures;
-        for (const ParameterTexture& texture : object.textures)
-            textures.emplace(texture.parameter,
-                             inline_table(own_tables().texture, texture, texture.transform));
-        add_parameters(object.reflection.parameters, object.label.text(), textures);
+        add_parameters(object.reflection.parameters, object.label.text(), texts_of(object.textures));
+        const std::map<std::string, std::string> textures = texts_of(object.common.textures);
+        for (const Field<CommonMaterial>& field : own_tables().material.fields()) {
+            const auto texture = textures.find(field.parameter.name);
+            if (texture != textures.end())
+                add(texture->first, texture->second);
+            else
+                add(field, object.common);
+        }
         end();
+    }
+
+    static std::map<std::string, std::string> texts_of(const std::vector<ParameterTexture>& textures) {
+        std::map<std::string, std::string> texts;
+        for (const ParameterTexture& texture : textures)
+            texts.emplace(texture.parameter, inline_table(own_tables().texture, texture, texture.transform));
+        return texts;
     }
 
     /// An inline table of what differs from the defaults.

@@ -107,6 +107,18 @@ void MaterialTextures::add(const NormalMap& map, const PlacedTexture& picture, i
 
 void MaterialTextures::add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
                            const PlacedTexture& picture) {
+    add_numbers(texture, parameter, index, picture);
+    of_model = numbers.size();
+}
+
+void MaterialTextures::add_common(const ParameterTexture& texture, const PlacedTexture& picture) {
+    const Parameter& parameter = material_parameter(texture.parameter);
+    (parameter.type == ParamType::color ? emission : occlusion) = numbers.size();
+    add_numbers(texture, parameter, 0, picture);
+}
+
+void MaterialTextures::add_numbers(const ParameterTexture& texture, const Parameter& parameter,
+                                   std::size_t index, const PlacedTexture& picture) {
     const std::size_t number = number_of(picture);
     const float unit = parameter.unit == "deg" ? k_radians : 1.0f;
     const bool is_color = parameter.type == ParamType::color;

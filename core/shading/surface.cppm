@@ -50,6 +50,8 @@ struct CANDELA_EXPORT SurfaceModels {
     std::shared_ptr<const MipMap> color_texture{};  // multiplies the colour; null: none
     TextureWrap color_texture_wrap = TextureWrap::repeat;
     MaterialTextures material_textures{};
+    Rgb emission{};       // added to the light that the points reflect; multiplies its texture, if it has one
+    float occlusion = 1;  // multiplies what they reflect of ambient light, where no texture does
     std::string shading_plugin;
     std::unique_ptr<ShadingModel> shading;
     ShadingNeeds shading_needs{};
@@ -66,6 +68,11 @@ struct CANDELA_EXPORT SurfaceModels {
     void set_reflection(Registry& registry, const Model& model, ColorEncoding encoding);
 
     bool has_textures() const { return color_texture != nullptr || material_textures.arrays() > 0; }
+
+    bool emits() const { return emission != Rgb{}; }
+    bool is_occluded() const {
+        return occlusion != 1 || material_textures.occlusion != MaterialTextures::k_none;
+    }
 
     PointNeeds needs() const;
 };
@@ -88,7 +95,9 @@ struct Transmitter {
 /// The lights of a scene, and the view of it.
 struct LightingContext {
     std::span<const RenderLight> lights;
-    const EnvironmentMap* environment = nullptr;  // null: transparent objects show no surroundings
+    /// Null: only what `lights` cause is found, without what transparent objects show of their surroundings
+    /// and what surfaces emit.
+    const EnvironmentMap* environment = nullptr;
     Camera camera;
     // Shadows.
     const OcclusionTree* occlusion = nullptr;  // of all objects; null: light is not blocked

@@ -27,6 +27,7 @@ module candela.shading;
 import :guarded;
 import :light_visibility;
 import :clearing;
+import :common_material;
 import :object_environment;
 import candela.api;
 import candela.plugins;
@@ -326,7 +327,10 @@ float SurfaceShader::shade(const SurfaceModels& surface, const ShadedObject& obj
         largest = add<4>({reflected, ambient, diffuse, specular}, count, intensity);
     }
     if (!std::isfinite(largest) || !are_ends_intact(written)) check_steps(surface, object, points);
-    return largest;
+    const bool is_of_lights_only = scene_.environment == nullptr;
+    if (!surface.emits() || is_of_lights_only) return largest;
+    add_emission(surface, points, count, intensity);
+    return add<1>({ConstVec3Span{intensity.x, intensity.y, intensity.z}}, count, intensity);
 }
 
 void SurfaceShader::check_steps(const SurfaceModels& surface, const ShadedObject& object,
@@ -342,7 +346,7 @@ void SurfaceShader::check_steps(const SurfaceModels& surface, const ShadedObject
 
 bool SurfaceShader::reflect_all_lights(const SurfaceModels& surface, const SurfacePoints& points) {
     if (other_lights_.size() == lights_.size() || surface.all_lights_reflection == nullptr ||
-        surface.environment_reflection != nullptr)
+        surface.environment_reflection != nullptr || surface.is_occluded())
         return false;
     // Weights have no colour.
     if (has_shadows_ && scene_.occlusion->has_transparent()) return false;
@@ -360,7 +364,7 @@ bool SurfaceShader::reflect_all_lights(const SurfaceModels& surface, const Surfa
 void SurfaceShader::set_varying(const SurfaceModels& surface, const SurfacePoints& points) {
     varying_.clear();
     const std::vector<TexturedNumber>& numbers = surface.material_textures.numbers;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
+    for (std::size_t i = 0; i < surface.material_textures.of_model; ++i)
         varying_.push_back({numbers[i].parameter, numbers[i].channel, points.parameters[i].data()});
 }
 
@@ -418,6 +422,7 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const ShadedObject& obj
             look_at(PluginKind::reflection, surface.reflection_plugin, {&ambient_});
         }
     }
+    if (surface.is_occluded()) occlude(surface, points, count, reflected.ambient);
     if (surface.environment_reflection != nullptr && scene_.environment != nullptr) {
         if (surroundings_ == nullptr)
             surroundings_ = std::make_unique<ObjectEnvironment>(*scene_.environment);

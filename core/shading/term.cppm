@@ -11,6 +11,7 @@ enum class Term {
     diffuse,            // the sum of I_d
     specular,           // the sum of I_s, and what transparent surfaces show of their surroundings
     surroundings,       // only those surroundings
+    emission,           // what surfaces emit
     n_dot_l,            // N.L, averaged over the lights' samples; below zero for light from behind
     visibility,         // the fraction of the lights' samples that reach the point; needs shadows
     ambient_occlusion,  // the fraction of ambient light that does, of lights with occlusion rays

@@ -8,6 +8,7 @@ module;
 module candela.shading;
 
 import :clearing;
+import :common_material;
 import :light_visibility;
 import :term;
 import candela.api;
@@ -41,6 +42,8 @@ void SurfaceShader::find_term(Term term, const SurfaceModels& surface, const Sha
         case Term::surroundings:
             add_up(surface, object, points, {}, Checking::none);
             return copy(specular_, points.count, values);
+        case Term::emission:
+            return find_emission(surface, points, points.count, values);
         case Term::n_dot_l:
             return find_n_dot_l(points, values);
         case Term::visibility:

@@ -90,7 +90,7 @@ struct PlacedTexture {
 struct TexturedNumber {
     std::size_t texture = 0;
     std::size_t texel_channel = 0;
-    std::size_t parameter = 0;  // of the model
+    std::size_t parameter = 0;  // of the model, if it is one of its numbers
     std::size_t channel = 0;    // of the parameter
     float scale = 1, offset = 0;
     float minimum = 0, maximum = 1;
@@ -107,8 +107,12 @@ struct TexturedNormal {
 
 /// The parameters of a material that differ from point to point, and its normals.
 struct MaterialTextures {
+    static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+
     std::vector<PlacedTexture> textures{};
     std::vector<TexturedNumber> numbers{};
+    std::size_t of_model = 0;                           // how many of them, the first, are the model's
+    std::size_t emission = k_none, occlusion = k_none;  // the first of their numbers, of three and of one
     std::optional<TexturedNormal> normal{};
 
     /// How many arrays evaluate() writes.
@@ -117,11 +121,16 @@ struct MaterialTextures {
     /// Adds the numbers of a parameter, the model's number `index`.
     CANDELA_EXPORT void add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
                             const PlacedTexture& picture);
+    /// Adds those of a parameter of CommonMaterial; after all of the model's.
+    CANDELA_EXPORT void add_common(const ParameterTexture& texture, const PlacedTexture& picture);
+
     /// Adds a picture that tilts normals, of this width and height.
     CANDELA_EXPORT void add(const NormalMap& map, const PlacedTexture& picture, int width, int height);
 
   private:
     std::size_t number_of(const PlacedTexture& picture);
+    void add_numbers(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
+                     const PlacedTexture& picture);
 };
 
 /// The matrix of a transform, row by row: u' = m[0] u + m[1] v + m[2], v' with the other three.

@@ -8,6 +8,7 @@ module;
 module candela.shading;
 
 import :clearing;
+import :common_material;
 import :guarded;
 import :light_visibility;
 import :object_environment;
@@ -49,6 +50,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
                      .dpdu = needs.derivatives ? first_of(points.dpdu) : Vec3{},
                      .dpdv = needs.derivatives ? first_of(points.dpdv) : Vec3{},
                      .from_behind = points.facing[0] < 0,
+                     .occlusion = occlusion_at(surface, points, 0),
                      .ambient = first_of(ambient_),
                      .diffuse = first_of(diffuse_),
                      .specular = first_of(specular_),
@@ -61,6 +63,9 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
         const auto* const channel = &points.parameters[surface.material_textures.numbers.size()];
         trace.normal_texel = {channel[0][0], channel[1][0], channel[2][0]};
     }
+    Vec3 emission;
+    find_emission(surface, points, 1, {&emission.x, &emission.y, &emission.z});
+    trace.emission = emission;
     for (const VaryingParameter& one : varying_)
         trace.parameters.push_back({one.parameter, one.channel, one.values[0]});
     for (std::size_t k = 0; needs.triangle && k < 3; ++k) {
@@ -107,6 +112,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
                 light.visibility = visibility_->find_ambient(source.ambient_occlusion)[0];
             guarded(PluginKind::reflection, surface.reflection_plugin,
                     [&] { surface.reflection->reflect_ambient(batch, light_diffuse_.span(), reflected); });
+            if (surface.is_occluded()) occlude(surface, points, count, reflected.ambient);
             light.diffuse = first_of(light_diffuse_);
             add(light);
         }

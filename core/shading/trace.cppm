@@ -58,6 +58,8 @@ struct PointTrace {
     std::array<Vec3, 3> corner_normal{};
     bool from_behind = false;  // the surface is open and its normal has been flipped
     std::vector<LightTrace> lights{};
+    float occlusion = 1;                    // of ambient light, by the material: a factor of I_a
+    Vec3 emission{};                        // I_e
     Vec3 surroundings{};                    // what a transparent surface shows of them
     Vec3 ambient{}, diffuse{}, specular{};  // I_a, I_d, I_s: sums over the lights
     Vec3 intensity{};                       // I, as the renderer computes it

@@ -74,6 +74,8 @@ class Exporter {
             to_.exported_objects[i].materials = to_.objects[i].materials;
             to_.exported_objects[i].textured_numbers = to_.objects[i].textured_numbers;
             if (to_.objects[i].normal_map) to_.exported_objects[i].normal_map = &*to_.objects[i].normal_map;
+            to_.exported_objects[i].emission_numbers = to_.objects[i].emission_numbers;
+            to_.exported_objects[i].occlusion_numbers = to_.objects[i].occlusion_numbers;
         }
         ExportedScene& result = to_.scene;
         result.title = to_.title.c_str();
@@ -373,28 +375,48 @@ class Exporter {
         return exported;
     }
 
-    /// The numbers of an object's own material that come from pictures.
-    std::vector<ExportedTexturedNumber> textured_numbers_of(const Object& object) {
-        if (object.textures.empty()) return {};
-        if (!request_.abilities.textured_numbers)
+    void require_abilities(const Object& object) const {
+        const CommonMaterial& common = object.common;
+        const auto refuse = [&](const char* what, const char* remedy) {
+            throw Error(ErrorCategory::failure,
+                        fmt::format("object {} {}, which this target does not support; {}",
+                                    object.label.text(), what, remedy));
+        };
+        if (!object.textures.empty() && !request_.abilities.textured_numbers)
             throw Error(ErrorCategory::failure,
                         fmt::format("'{}' of object {} has a texture, which this target supports only for "
                                     "colours; give it a value",
                                     object.textures.front().parameter, object.label.text()));
+        if (common.emits() && !request_.abilities.emission)
+            refuse("emits light", "remove 'emission' from its material");
+        if ((common.occlusion != 1 || common.has_texture("occlusion")) && !request_.abilities.occlusion)
+            refuse("has an occlusion of ambient light", "remove 'occlusion' from its material");
+    }
+
+    /// The numbers of an object that come from pictures: of its own material, emission and occlusion.
+    void add_textured_numbers(const Object& object, ExportStorage::Object& to) {
+        if (object.textures.empty() && object.common.textures.empty()) return;
         MaterialTextures textures;
         std::vector<std::size_t> pictures;  // of each texture: index of to_.textures
-        for (const ParameterTexture& texture : object.textures) {
-            const ParamSet& values = object.reflection.parameters;
-            const std::size_t index = values.index_of(texture.parameter);
-            const Parameter& parameter = values.schema()[index];
+        const auto place = [&](const ParameterTexture& texture, const Parameter& parameter, const auto& add) {
             const ColorEncoding encoding = encoding_of(texture, parameter, scene_.image.color_management);
             const std::size_t picture = texture_of(texture.file, encoding);
-            textures.add(texture, parameter, index,
-                         {fmt::format("{}", picture), nullptr, texture.wrap, texture.transform});
+            add(PlacedTexture{fmt::format("{}", picture), nullptr, texture.wrap, texture.transform});
             pictures.resize(textures.textures.size(), picture);
+        };
+        const ParamSet& values = object.reflection.parameters;
+        for (const ParameterTexture& texture : object.textures) {
+            const std::size_t index = values.index_of(texture.parameter);
+            place(texture, values.schema()[index], [&](const PlacedTexture& placed) {
+                textures.add(texture, values.schema()[index], index, placed);
+            });
         }
-        std::vector<ExportedTexturedNumber> numbers;
-        for (const TexturedNumber& number : textures.numbers) {
+        for (const ParameterTexture& texture : object.common.textures) {
+            place(texture, material_parameter(texture.parameter),
+                  [&](const PlacedTexture& placed) { textures.add_common(texture, placed); });
+        }
+        for (std::size_t i = 0; i < textures.numbers.size(); ++i) {
+            const TexturedNumber& number = textures.numbers[i];
             const PlacedTexture& placed = textures.textures[number.texture];
             ExportedTexturedNumber exported{.parameter = number.parameter,
                                             .channel = number.channel,
@@ -406,13 +428,17 @@ class Exporter {
                                             .minimum = number.minimum,
                                             .maximum = number.maximum};
             std::ranges::copy(placing_of(placed.transform), exported.placing);
-            numbers.push_back(exported);
+            const bool is_of_model = i < textures.of_model, is_occlusion = i == textures.occlusion;
+            (is_of_model    ? to.textured_numbers
+             : is_occlusion ? to.occlusion_numbers
+                            : to.emission_numbers)
+                .push_back(exported);
         }
-        return numbers;
     }
 
     void add(std::size_t index) {
         const Object& object = scene_.objects[index];
+        require_abilities(object);
         auto& own = to_.objects.emplace_back();
         own.tessellator = made<Shape>(object.shape.name, object.shape.parameters);
         own.transform = object.transform;
@@ -428,10 +454,13 @@ class Exporter {
             .transform = object.transform,
             .color_texture = texture_of(object),
             .color_texture_repeats = object.color_texture_wrap == TextureWrap::repeat,
+            .emission = object.common.emission,
+            .emission_strength = object.common.emission_strength,
+            .occlusion = object.common.occlusion,
             .casts_shadows = object.casts_shadows,
             .receives_shadows = object.receives_shadows,
             .transmits_light = object.transmits_light};
-        own.textured_numbers = textured_numbers_of(object);
+        add_textured_numbers(object, own);
         own.normal_map = normal_map_of(object);
         // Not by their names: files with the same text are the same plugin.
         const PluginDescriptor& shading = registry_.descriptor(PluginKind::shading, object.shading.name);

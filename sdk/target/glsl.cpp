@@ -87,19 +87,28 @@ std::string horizon_text(const ExportedReflection& model) {
 }
 
 /// Textures may give numbers of the material at a point.
-std::string own_material(const ExportedReflection& model) {
-    if (!has_parameters(model)) return "";
-    return fmt::format(
-        "#ifdef TEXTURED_MATERIAL\n{} own_material;\n#else\n#define own_material material\n#endif\n",
-        model.plugin->kernel.parameters);
+std::string own_material(const ExportedReflection& model, bool has_common) {
+    const bool has_own = has_parameters(model);
+    std::string text = has_own
+                           ? fmt::format(
+                                 "#ifdef TEXTURED_MATERIAL\n{} own_material;\n#else\n#define own_material "
+                                 "material\n#endif\n",
+                                 model.plugin->kernel.parameters)
+                           : "";
+    if (has_common)
+        text += fmt::format("#ifdef TEXTURED_MATERIAL\nvoid start_material() {{{}}}\n#endif\n",
+                            has_own ? " own_material = material; " : "");
+    return text;
 }
 
-std::string reflection_text(const ExportedReflection& model, bool has_shadows, bool is_textured) {
+std::string reflection_text(const ExportedReflection& model, bool has_shadows, bool is_textured,
+                            bool has_common) {
     const char* const material = is_textured ? "own_material" : "material";
     return fmt::format(
         "{}\n{}{}{}{}{}Reflected reflect_light(Surface s, vec3 to_light) {{ return {}; }}\n"
         "vec3 reflect_ambient(Surface s) {{ return {}; }}\n",
-        model.plugin->kernel.text, uniform_of(model, "material"), is_textured ? own_material(model) : "",
+        model.plugin->kernel.text, uniform_of(model, "material"),
+        is_textured ? own_material(model, has_common) : "",
         preparation_of(model, "material", "MATERIAL", material), needs_text(model),
         has_shadows ? horizon_text(model) : "",
         call(model, "reflect", constants_name(model, "material", material), "s, to_light"),
@@ -177,11 +186,13 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
         filled(candela_target_lit,
                {{"PREPARATION", calls_of_preparations(scene)},
                 {"NORMAL", has_normal_maps(scene) ? k_mapped_normal : k_shading_normal},
+                {"EMISSION", has_emission(scene) ? " + own_emission" : ""},
                 {"SEEN_SIDE",
                  if_shadows("    seen_side = facing * point.face_normal;\n    seen_facing = facing;\n")}});
-    parts.lights = lights_text(scene);
+    parts.lights = common_material(scene) + lights_text(scene);
     for (const auto& model : scene.reflections)
-        parts.reflections.push_back(reflection_text(model, scene.has_shadows, has_materials));
+        parts.reflections.push_back(
+            reflection_text(model, scene.has_shadows, has_materials, has_common_textures(scene)));
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
     const bool needs_triangle = sees_triangles(scene), is_textured = !scene.textures.empty();
     constexpr const char *k_triangle = "NEEDS_TRIANGLE", *k_texture = "TEXTURED",
@@ -223,6 +234,7 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     }
     parts.materials = textured_materials(scene);
     parts.normal_maps = normal_map_texts(scene);
+    parts.common_materials = textured_common_materials(scene);
     parts.screen = candela_target_screen;
     parts.accumulate = candela_target_accumulate;
     parts.encode = "#define KERNEL\n" + std::string(tone_kernel()) + "\n" + candela_target_encode;

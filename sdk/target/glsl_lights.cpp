@@ -16,6 +16,7 @@
 #include "candela/target/kernels.h"
 #include "candela/target/shadow_tree.h"
 #include "candela/target/text_template.h"
+#include "candela/target/textures.h"
 
 CANDELA_EMBED(candela_target_shadows, CANDELA_TARGET_TEMPLATES "/shadows.glsl");
 CANDELA_EMBED(candela_target_sample_offsets, CANDELA_TARGET_TEMPLATES "/sample_offsets.glsl");
@@ -161,17 +162,18 @@ class LightLoopWriter {
     }
 
     void add_ambient() {
-        const bool has_occlusion = std::ranges::any_of(scene_.lights, [&](const ExportedLight& light) {
+        const bool has_rays = std::ranges::any_of(scene_.lights, [&](const ExportedLight& light) {
             return light.model == index_ && light.ambient_occlusion_rays > 0;
         });
-        const bool is_occluded = scene_.has_shadows && has_occlusion;
+        const bool is_occluded = scene_.has_shadows && has_rays;
         if (is_occluded)
             body_ += fmt::format(
                 "        vec3 shadows = {};  // y: rays of its ambient occlusion, z: their length\n"
                 "        float free = is_shadowed && shadows.y > 0.0 ? visible_ambient_part(r, "
                 "int(shadows.y), shadows.z) : 1.0;\n",
                 shadow_settings());
-        body_ += fmt::format("        sum += {}reflect_ambient(s) * {};\n", is_occluded ? "free * " : "",
+        body_ += fmt::format("        sum += {}{}reflect_ambient(s) * {};\n", is_occluded ? "free * " : "",
+                             has_occlusion(scene_) ? "own_occlusion * " : "",
                              call(model_, "illuminate_ambient", "light", "r"));
     }
 

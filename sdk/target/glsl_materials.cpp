@@ -33,18 +33,23 @@ constexpr const char* k_reads_pictures =
     "#ifndef READS_PICTURES\n#define READS_PICTURES\n"
     "vec3 material_texel(ColorTexture t, vec3 u, vec3 v);\n#endif\n";
 
-std::string text_of(const ExportedScene& scene, const ExportedObject& object) {
-    if (object.textured_numbers.empty()) return "";
+/// `has_model`: with the object's own reflection model.
+std::string text_of(const ExportedScene& scene, const ExportedObject& object, bool has_model) {
     const auto lookup = [&](const ExportedTexturedNumber& n) { return texel_text(object, n); };
-    const auto [texels, assignments] =
-        material_statements(scene, object, {"    ", "vec3", "own_material"}, lookup);
+    const auto [texels, assignments, common] = material_statements(
+        scene, object, {"    ", "vec3", "own_material", "own_emission", "own_occlusion", has_model}, lookup);
+    std::string start =
+        has_common_textures(scene) ? "    start_material();\n" : "    own_material = material;\n";
+    if (has_common_textures(scene) && has_emission(scene)) start += "    own_emission = object_emission;\n";
+    if (has_common_textures(scene) && has_occlusion(scene))
+        start += "    own_occlusion = object_occlusion;\n";
     return k_reads_pictures +
            fmt::format(
                "float number_of(float texel, float scale, float offset, float low, float high) {{\n"
                "    return min(max(offset + scale * texel, low), high);\n}}\n"
                "// {}: textures give some numbers of its material.\n"
-               "void find_material() {{\n    own_material = material;\n{}{}}}\n",
-               ascii_identifier(object.label), texels, assignments);
+               "void find_material() {{\n{}{}{}{}}}\n",
+               ascii_identifier(object.label), start, texels, assignments, common);
 }
 
 std::string normal_text_of(const ExportedObject& object) {
@@ -62,6 +67,10 @@ std::string normal_text_of(const ExportedObject& object) {
                float_text(map.to_uv[3]));
 }
 
+bool has_common(const ExportedObject& object) {
+    return !object.emission_numbers.empty() || !object.occlusion_numbers.empty();
+}
+
 }  // namespace
 
 std::vector<MaterialPicture> material_pictures(const ExportedObject& object) {
@@ -69,7 +78,7 @@ std::vector<MaterialPicture> material_pictures(const ExportedObject& object) {
     const auto add = [&](const MaterialPicture& one) {
         if (std::ranges::find(pictures, one) == pictures.end()) pictures.push_back(one);
     };
-    for (const ExportedTexturedNumber& n : object.textured_numbers) add({n.texture, n.repeats});
+    for (const ExportedTexturedNumber& n : all_textured_numbers(object)) add({n.texture, n.repeats});
     if (object.normal_map != nullptr) add({object.normal_map->texture, object.normal_map->repeats});
     return pictures;
 }
@@ -88,7 +97,7 @@ std::vector<std::string> textured_materials(const ExportedScene& scene) {
             throw std::runtime_error(
                 fmt::format("the material of object {} reads {} pictures; shaders have room for {}",
                             object.label, material_pictures(object).size(), k_most_material_pictures));
-        all.push_back(text_of(scene, object));
+        all.push_back(all_textured_numbers(object).empty() ? "" : text_of(scene, object, true));
     }
     return all;
 }
@@ -97,6 +106,39 @@ std::vector<std::string> normal_map_texts(const ExportedScene& scene) {
     std::vector<std::string> all;
     for (const ExportedObject& object : scene.objects) all.push_back(normal_text_of(object));
     return all;
+}
+
+std::vector<std::string> textured_common_materials(const ExportedScene& scene) {
+    std::vector<std::string> all;
+    for (const ExportedObject& object : scene.objects)
+        all.push_back(has_common(object) ? text_of(scene, object, false) : "");
+    return all;
+}
+
+bool has_common_textures(const ExportedScene& scene) {
+    return std::ranges::any_of(scene.objects, has_common);
+}
+
+std::string common_material(const ExportedScene& scene) {
+    const bool is_textured = has_common_textures(scene);
+    std::string text;
+    const auto declare = [&](const char* type, const char* name) {
+        text += fmt::format("uniform {} object_{};\n", type, name);
+        text += is_textured ? fmt::format(
+                                  "#ifdef TEXTURED_MATERIAL\n{0} own_{1};\n#else\n#define own_{1} "
+                                  "object_{1}\n#endif\n",
+                                  type, name)
+                            : fmt::format("#define own_{0} object_{0}\n", name);
+    };
+    if (has_emission(scene)) {
+        text += "// The emission of the object.\n";
+        declare("vec3", "emission");
+    }
+    if (has_occlusion(scene)) {
+        text += "// The fraction of ambient light that reaches it.\n";
+        declare("float", "occlusion");
+    }
+    return text;
 }
 
 std::string material_units(const ExportedScene& scene) {

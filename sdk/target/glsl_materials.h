@@ -10,6 +10,13 @@ namespace candela::target {
 
 /// For each object, GlslParts::materials.
 std::vector<std::string> textured_materials(const ExportedScene& scene);
+/// For each object, GlslParts::common_materials.
+std::vector<std::string> textured_common_materials(const ExportedScene& scene);
+/// Whether one of them is not empty.
+bool has_common_textures(const ExportedScene& scene);
+
+/// Declares own_emission and own_occlusion, of an object or a point, in a scene where objects have them.
+std::string common_material(const ExportedScene& scene);
 
 /// For each object, GlslParts::normal_maps.
 std::vector<std::string> normal_map_texts(const ExportedScene& scene);

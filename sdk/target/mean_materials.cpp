@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <span>
 
+#include "candela/color.h"
+
 namespace candela::target {
 
 float mean_of(const ExportedScene& scene, const ExportedTexturedNumber& number) {
@@ -34,11 +36,43 @@ void approximate_by_mean(const ExportedScene& scene, const ExportedObject& objec
         fmt::format("the texture of '{}' of object {} becomes its mean", name, object.label).c_str());
 }
 
+namespace {
+
+/// The colour, as written, that becomes this intensity.
+float written(float intensity, ColorEncoding encoding) {
+    return 255 * (encoding == ColorEncoding::srgb ? linear_to_srgb(intensity) : intensity);
+}
+
+/// Reports that the picture of one of the keys that every material has becomes its mean.
+void approximate_by_mean(const ExportedObject& object, const char* key, FileSink& files) {
+    files.approximate(
+        fmt::format("the texture of '{}' of object {} becomes its mean", key, object.label).c_str());
+}
+
+}  // namespace
+
+void MeanMaterials::take_common(ExportedObject& object, FileSink& files) const {
+    if (!object.emission_numbers.empty()) {
+        approximate_by_mean(object, "emission", files);
+        const auto channel = [&](std::size_t c) {
+            return written(mean_of(scene_, object.emission_numbers[c]), scene_.image.color_management);
+        };
+        object.emission = {channel(0), channel(1), channel(2)};
+        object.emission_numbers = {};
+    }
+    if (!object.occlusion_numbers.empty()) {
+        approximate_by_mean(object, "occlusion", files);
+        object.occlusion = mean_of(scene_, object.occlusion_numbers.front());
+        object.occlusion_numbers = {};
+    }
+}
+
 MeanMaterials::MeanMaterials(const ExportedScene& scene, FileSink& files)
     : scene_(scene), objects_(scene.objects.begin(), scene.objects.end()) {
     materials_.reserve(objects_.size());
     values_.reserve(objects_.size());
     for (ExportedObject& object : objects_) {
+        take_common(object, files);
         if (object.textured_numbers.empty()) continue;
         for (const ExportedTexturedNumber& number : object.textured_numbers)
             approximate_by_mean(scene, object, number.parameter, files);

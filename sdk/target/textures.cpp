@@ -69,7 +69,7 @@ MaterialStatements material_statements(
     };
     MaterialStatements statements;
     std::vector<std::string> lookups;
-    for (const ExportedTexturedNumber& n : object.textured_numbers) {
+    const auto value_of = [&](const ExportedTexturedNumber& n) {
         const std::string texel = lookup(n);
         const auto known = std::ranges::find(lookups, texel);
         const auto place = known - lookups.begin();
@@ -78,14 +78,47 @@ MaterialStatements material_statements(
                 fmt::format("{}{} texel_{} = {};\n", names.indent, names.texel_type, place, texel);
             lookups.push_back(texel);
         }
-        const ParamSpec& parameter = scene.reflections[object.reflection].plugin->parameters[n.parameter];
-        statements.assignments +=
-            fmt::format("{}{}.{}{} = number_of(texel_{}{}, {}, {}, {}, {});\n", names.indent, names.material,
-                        parameter.name, parameter.type == ParamType::real ? "" : k_channels[n.channel], place,
-                        k_channels[n.texel_channel], float_text(n.scale), float_text(n.offset),
-                        finite(n.minimum), finite(n.maximum));
+        return fmt::format("number_of(texel_{}{}, {}, {}, {}, {})", place, k_channels[n.texel_channel],
+                           float_text(n.scale), float_text(n.offset), finite(n.minimum), finite(n.maximum));
+    };
+    if (names.has_model) {
+        for (const ExportedTexturedNumber& n : object.textured_numbers) {
+            const ParamSpec& parameter = scene.reflections[object.reflection].plugin->parameters[n.parameter];
+            statements.assignments +=
+                fmt::format("{}{}.{}{} = {};\n", names.indent, names.material, parameter.name,
+                            parameter.type == ParamType::real ? "" : k_channels[n.channel], value_of(n));
+        }
     }
+    for (const ExportedTexturedNumber& n : object.emission_numbers)
+        statements.common +=
+            fmt::format("{}{}{} *= {};\n", names.indent, names.emission, k_channels[n.channel], value_of(n));
+    for (const ExportedTexturedNumber& n : object.occlusion_numbers)
+        statements.common += fmt::format("{}{} = {};\n", names.indent, names.occlusion, value_of(n));
     return statements;
+}
+
+Rgb emission_of(const ExportedObject& object, ColorEncoding encoding) {
+    return object.emission_strength *
+           (object.emission_numbers.empty() ? decoded(object.emission, encoding) : Rgb{1, 1, 1});
+}
+
+bool has_emission(const ExportedScene& scene) {
+    return std::ranges::any_of(scene.objects, [&](const ExportedObject& object) {
+        return !object.emission_numbers.empty() || emission_of(object, scene.image.color_management) != Rgb{};
+    });
+}
+
+bool has_occlusion(const ExportedScene& scene) {
+    return std::ranges::any_of(scene.objects, [](const ExportedObject& object) {
+        return object.occlusion != 1 || !object.occlusion_numbers.empty();
+    });
+}
+
+std::vector<ExportedTexturedNumber> all_textured_numbers(const ExportedObject& object) {
+    std::vector<ExportedTexturedNumber> all;
+    for (const auto numbers : {object.textured_numbers, object.emission_numbers, object.occlusion_numbers})
+        all.insert(all.end(), numbers.begin(), numbers.end());
+    return all;
 }
 
 void write_textures(const ExportedScene& scene, FileSink& files) {

@@ -36,6 +36,8 @@ TEST_CASE("the absence of lights or objects is given as the reason") {
     CHECK(holds(no_lights, "the scene has no lights: every object is black"));
     CHECK_FALSE(holds(no_lights, "nothing in the picture is lit"));
     CHECK(holds(warning(light(k_in_front)), "the scene has no objects"));
+    CHECK_FALSE(
+        holds(warning(k_ball + "[object.material]\nemission = [9, 9, 9]\n"), "the scene has no lights"));
 }
 
 TEST_CASE("if the observer looks away from all objects, the warning says where they are") {

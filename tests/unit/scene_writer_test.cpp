@@ -212,6 +212,20 @@ TEST_CASE("scenes that differ in one value are different") {
                  .transform = {.scale = {2, -1}, .rotation = 30, .offset = {0, 0.5f}}});
             s.objects[1].reflection.parameters.set("kd", Vec3{0.625f, 0.25f, 1});
         },
+        [](Scene& s) { s.objects[1].common.emission = {10, 200, 30}; },
+        [](Scene& s) { s.objects[1].common.emission_strength = 12.5f; },
+        [](Scene& s) { s.objects[1].common.occlusion = 0.25f; },
+        [](Scene& s) {
+            const std::string file = std::string(CANDELA_TEST_SOURCE) + "/LICENSE";
+            s.objects[1].common.textures = {
+                {.parameter = "emission", .file = file, .scale = {0.5f, 0.25f, 1}},
+                {.parameter = "occlusion",
+                 .file = file,
+                 .channel = candela::TextureChannel::green,
+                 .scale = {0.5f, 0.5f, 0.5f},
+                 .offset = {0.25f, 0.25f, 0.25f}}};
+            s.objects[1].common.occlusion = 0.75f;
+        },
         [](Scene& s) { s.objects[1].shading.name = "flat"; },
         [](Scene& s) { s.objects[1].reflection.parameters.set("kd", Vec3{0.1f, 0.2f, 0.3f}); },
     };

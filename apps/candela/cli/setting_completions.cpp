@@ -77,6 +77,7 @@ void add_scene(Paths& paths, const candela::Scene& scene) {
                 paths.add(table, prefix);
                 paths.add(PluginKind::shape, object.shape.name, prefix);
                 paths.add(PluginKind::reflection, object.reflection.name, prefix + "material.");
+                paths.add(candela::material_schema(), prefix + "material.");
             }
         }
     }

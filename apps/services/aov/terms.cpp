@@ -41,6 +41,7 @@ constexpr KnownTerm k_terms[] = {
     {"diffuse", Term::diffuse, false, k_color, "diffuse"},
     {"specular", Term::specular, false, k_color, "specular"},
     {"surroundings", Term::surroundings, false, k_color, "surroundings"},
+    {"emission", Term::emission, false, k_color, "emission"},
     {"background", Term::background, false, k_color, "background"},
     {"light", Term::intensity, true, k_color, "light"},
     {"n_dot_l", Term::n_dot_l, true, {""}, "n_dot_l"},
@@ -229,7 +230,8 @@ void map_to_colors(Term term, Planes& planes, const std::vector<float>& facing) 
 
 bool is_intensity(Term term) {
     return term == Term::intensity || term == Term::ambient || term == Term::diffuse ||
-           term == Term::specular || term == Term::surroundings || term == Term::background;
+           term == Term::specular || term == Term::surroundings || term == Term::emission ||
+           term == Term::background;
 }
 
 }  // namespace

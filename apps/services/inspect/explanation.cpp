@@ -169,7 +169,8 @@ std::optional<double> Explanation::kernel_difference() const {
                 };
                 for (const KernelValue& value : reflection_steps(light)) {
                     if (value.depth != 0 || value.step->kind != KernelStep::Kind::result) continue;
-                    if (value.member.empty()) compare(value, light.diffuse, light.reflected_ambient);
+                    if (value.member.empty())
+                        compare(value, point.occlusion * light.diffuse, light.reflected_ambient);
                     if (value.member == ".diffuse") compare(value, light.diffuse, light.reflected_diffuse);
                     if (value.member == ".specular") compare(value, light.specular, light.reflected_specular);
                 }

@@ -116,6 +116,8 @@ Json json_of(const Explanation& e, const PointTrace& point, const candela::Objec
             {"I_a", json_of(point.ambient)},
             {"I_d", json_of(point.diffuse)},
             {"I_s", json_of(point.specular)},
+            {"I_e", json_of(point.emission)},
+            {"occlusion", point.occlusion},
             {"I", json_of(point.intensity)}};
 }
 

@@ -111,10 +111,9 @@ class Writer {
                 placed = &textures.textures[textures.numbers[i].texture];
             }
             if (placed == nullptr) continue;
-            const std::array<int, 2> texel = placed->texel_at(point.u, point.v);
             if (parameter.type != candela::ParamType::real) value = '[' + value + ']';
-            line(2, fmt::format("{} = {}  texel ({}, {}) of {}", texture.parameter, value, texel[0], texel[1],
-                                std::filesystem::path(texture.file).filename().string()));
+            line(2,
+                 fmt::format("{} = {}  {}", texture.parameter, value, texel_text(texture, *placed, point)));
         }
     }
 
@@ -131,10 +130,39 @@ class Writer {
               map.has_heights ? "N_shading, tilted by the slopes" : "N_shading, tilted");
     }
 
+    static std::string texel_text(const candela::ParameterTexture& texture,
+                                  const candela::PlacedTexture& placed, const PointTrace& point) {
+        const std::array<int, 2> texel = placed.texel_at(point.u, point.v);
+        return fmt::format("texel ({}, {}) of {}", texel[0], texel[1],
+                           std::filesystem::path(texture.file).filename().string());
+    }
+
+    /// The keys of every material, if the object has them.
+    void write_common(const PointTrace& point, const candela::Object& object,
+                      const candela::SurfaceModels& surface) {
+        const candela::MaterialTextures& textures = surface.material_textures;
+        const auto remark = [&](const char* parameter, std::size_t first) {
+            const auto texture =
+                std::ranges::find(object.common.textures, parameter, &candela::ParameterTexture::parameter);
+            if (texture == object.common.textures.end()) return std::string();
+            return texel_text(*texture, textures.textures[textures.numbers[first].texture], point);
+        };
+        if (surface.is_occluded()) {
+            const std::string texel = remark("occlusion", textures.occlusion);
+            line(2, fmt::format("occlusion = {:.6g}{}{}", point.occlusion, texel.empty() ? "" : "  ", texel));
+        }
+        if (!surface.emits()) return;
+        std::string source = remark("emission", textures.emission);
+        if (object.common.emission_strength != 1)
+            source += fmt::format("{}emission_strength {:g}", source.empty() ? "" : ", ",
+                                  object.common.emission_strength);
+        value(2, "I_e", point.emission, source.empty() ? "emission" : "emission: " + source);
+    }
+
     void write(const PointTrace& point, const candela::Object& object, std::size_t object_index) {
         value(2, "p", point.position);
-        const candela::MaterialTextures& textures =
-            e_.compiled.objects[object_index].surface.material_textures;
+        const candela::SurfaceModels& surface = e_.compiled.objects[object_index].surface;
+        const candela::MaterialTextures& textures = surface.material_textures;
         const char* const reversed = point.from_behind ? "seen from behind: reversed" : "";
         if (textures.normal) {
             value(2, "N_shading", point.shading_normal, reversed);
@@ -148,12 +176,13 @@ class Writer {
         if (length(point.tangent) > 0) value(2, "T", point.tangent);
         value(2, "C_o", point.color);
         write_textures(point, object, textures);
+        write_common(point, object, surface);
         for (const LightTrace& light : point.lights) write(light, point, object);
         if (length(point.surroundings) > 0) value(2, "surroundings", point.surroundings);
         value(2, "I_a", point.ambient);
         value(2, "I_d", point.diffuse);
         value(2, "I_s", point.specular);
-        value(2, "I", point.intensity, "I_a + I_d + I_s");
+        value(2, "I", point.intensity, surface.emits() ? "I_a + I_d + I_s + I_e" : "I_a + I_d + I_s");
     }
 
     void write(const LightTrace& light, const PointTrace& point, const candela::Object& object) {

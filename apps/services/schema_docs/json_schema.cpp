@@ -66,6 +66,23 @@ Json parameter_schema(const Manifest& m, const Parameter& p) {
     return schema;
 }
 
+/// The value of a key that every material has, or the texture that it may have instead.
+Json material_value_schema(const Parameter& p) {
+    Json schema = parameter_schema(p);
+    if (!takes_texture(p)) return schema;
+    Json texture{{"$ref", fmt::format("#/definitions/{}", k_texture)}};
+    return {{"description", schema["description"]},
+            {"anyOf", Json::array({value_json(p), std::move(texture)})},
+            {"default", schema["default"]}};
+}
+
+/// Adds the keys that every material has, unless its models have parameters of that name.
+void add_common(PluginKind kind, Json& properties) {
+    if (kind != PluginKind::reflection) return;
+    for (const Parameter& p : material_schema().parameters)
+        if (!properties.contains(p.name)) properties[p.name] = material_value_schema(p);
+}
+
 /// A list of values of the parameter's type.
 Json list_schema(const Parameter& p) {
     return {{"description", p.meaning}, {"type", "array"}, {"items", value_json(p)}, {"uniqueItems", true}};
@@ -161,11 +178,7 @@ class SchemaWriter {
             root["properties"][p.name] = is_list ? list_schema(p) : parameter_schema(p);
         }
         for (const TableSchema& table : scene_schema()) root["properties"][table.name] = schema_of(table);
-        if (std::ranges::any_of(installed_, [](const Manifest& m) {
-                return std::ranges::any_of(m.parameters,
-                                           [&](const Parameter& p) { return takes_texture(m, p); });
-            }))
-            definitions_[k_texture] = schema_of(texture_schema());
+        if (!all(PluginKind::reflection).empty()) definitions_[k_texture] = schema_of(texture_schema());
         root["additionalProperties"] = false;
         put_unless_empty(root, "dependencies", material_dependencies());
         put_unless_empty(root, "definitions", std::move(definitions_));
@@ -244,10 +257,12 @@ class SchemaWriter {
     }
 
     Json inner_table(const TableSchema& table, const PluginKey& key) const {
+        Json properties = union_of(key.kind);
+        add_common(key.kind, properties);
         Json inner{{"title", fmt::format("[{}.{}]", table.name, *key.parameters_in)},
                    {"description", fmt::format("parameters of the {} model", name_of(key.kind))},
                    {"type", "object"},
-                   {"properties", union_of(key.kind)}};
+                   {"properties", std::move(properties)}};
         if (!has_kernels(key.kind)) inner["additionalProperties"] = false;
         return inner;
     }
@@ -308,6 +323,7 @@ class SchemaWriter {
             const bool is_said = !properties.contains(p.name) && is_agreed(users_of(m.kind, p.name));
             properties[p.name] = is_said ? Json(true) : parameter_schema(m, p);
         }
+        add_common(m.kind, properties);
         put_unless_empty(schema, "required", required_in(m.parameters));
         schema["additionalProperties"] = false;
         definitions_[definition_name(m)] = std::move(schema);

@@ -100,6 +100,7 @@ class ReferenceWriter {
         text_ += "\n## The file\n";
         table(top_schema());
         for (const TableSchema& schema : scene_schema()) table(schema);
+        table(material_schema());
         table(texture_schema());
         for (const Section& section : k_sections) {
             line("\n## {}\n\n{}", section.heading, section.text);

@@ -114,6 +114,12 @@ struct ExportedObject {
     bool color_texture_repeats = true;         // beyond its edges; otherwise the edge colours continue
     std::span<const ExportedTexturedNumber> textured_numbers{};  // of its own reflection model
     const ExportedNormalMap* normal_map = nullptr;               // or null
+    // Of its material, whatever the reflection model:
+    Vec3 emission{};              // 0-255; added to the light it reflects, and black if it emits nothing
+    float emission_strength = 1;  // multiplies the intensities of `emission` or of its texture
+    std::span<const ExportedTexturedNumber> emission_numbers{};  // three, if it has a texture, or none
+    float occlusion = 1;  // multiplies what it reflects of ambient light
+    std::span<const ExportedTexturedNumber> occlusion_numbers{};  // one, if it has a texture, or none
     // With ExportedScene::has_shadows:
     bool casts_shadows = true;     // it blocks light
     bool receives_shadows = true;  // others, and its own parts, block light on it
@@ -260,6 +266,8 @@ struct TargetAbilities {
     bool textures = false;               // ExportedObject::color_texture
     bool textured_numbers = false;       // ExportedObject::textured_numbers
     bool normal_maps = false;            // ExportedObject::normal_map
+    bool emission = false;               // ExportedObject::emission, and its texture
+    bool occlusion = false;              // ExportedObject::occlusion, and its texture
     bool shadows = false;                // ExportedScene::has_shadows
     bool display = false;                // ExportedImage::exposure and ::tone
 };

@@ -196,6 +196,7 @@ struct OwnTables {
     Table<LightSource> light;
     Table<Object> object;
     Table<NormalMap> normal_map, bump_map;
+    Table<CommonMaterial> material;   // of any model
     Table<ParameterTexture> texture;  // of a parameter
     Table<TextureTransform> texture_transform;
     Table<Orbit> orbit;

@@ -1,5 +1,6 @@
 module;
 
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
@@ -43,8 +44,14 @@ class ModelChooser {
     bool is_missing(const std::string& table) const;
     void use_defaults_if_agreed();
     void read_shading_table();
+    /// `why_not`: the reason why a parameter cannot have a texture; empty: it can.
+    std::vector<ParameterTexture> take_textures(TableNode& material, const std::vector<Parameter>& parameters,
+                                                const std::string& where,
+                                                const std::function<std::string(const Parameter&)>& why_not);
     std::vector<ParameterTexture> take_textures(TableNode& material, const PluginFile& plugin,
                                                 const std::string& where);
+    /// Takes the entries that do not belong to the model.
+    CommonMaterial take_common(TableNode& material, const PluginFile& plugin, const TableContext& context);
     std::optional<ParameterTexture> texture_in(const TableNode& table, const Parameter& parameter,
                                                const std::string& where, const SourceLocation& place);
     std::optional<Named> model_in_scene(const TableNode& object);

@@ -119,6 +119,7 @@ class CppWriter {
             {"TEXEL_PARAMETER", if_mapped(", vec3 normal_texel")},
             {"TEXEL_WITHIN", if_mapped(", is_normal_mapped(o) ? normal_texel(o, triangle, b) : vec3(0.0f)")},
             {"NO_TEXEL", if_mapped(", vec3(0.0f)")},
+            {"EMISSION", has_emission(scene_) ? if_textured(" + own.emission", " + o.emission") : ""},
             {"OWN_PARAMETER", if_textured(", const Material& own")},
             {"OWN_WITHIN", if_textured(", material_within(o, triangle, b)")},
             {"OWN_AT_VERTEX", if_textured(", material_at_vertex(o, v)")},
@@ -312,6 +313,10 @@ class CppWriter {
         std::string text;
         if (scene_.reflections.size() > 1) text += "    Reflection reflection{};\n";
         for (const auto& model : scene_.reflections) text += member(model, material_member(model));
+        if (has_emission(scene_))
+            text += "    vec3 emission = vec3(0.0f);  // added to the light that it reflects\n";
+        if (has_occlusion(scene_))
+            text += "    float occlusion = 1.0f;  // of ambient light: a factor of what it reflects of it\n";
         return text;
     }
     static std::string member(const ExportedModel& model, const std::string& name) {
@@ -423,6 +428,8 @@ class CppTarget final : public Target {
                 .textures = true,
                 .textured_numbers = true,
                 .normal_maps = true,
+                .emission = true,
+                .occlusion = true,
                 .shadows = true,
                 .display = true};
     }

@@ -11,6 +11,7 @@
 
 #include "candela/target/kernels.h"
 #include "candela/target/literals.h"
+#include "candela/target/textures.h"
 #include "shadows.h"
 
 namespace candela::cpp_target {
@@ -61,6 +62,7 @@ class LightLoop {
                 std::ranges::any_of(light.punctual, [](const auto& p) { return p.w != 0; });
             is_placed_ = is_placed_ || (casts && is_source);
         }
+        has_occluded_objects_ = target::has_occlusion(scene);
         if (has_extents_) require("extent");
         if (has_function(model_, "distance")) {
             is_placed_ = true;
@@ -100,7 +102,8 @@ class LightLoop {
         }
         if (has_function(model_, "illuminate_ambient"))
             text +=
-                fmt::format("        sum += {}reflected_ambient(o, s) * {};\n",
+                fmt::format("        sum += {}{}reflected_ambient(o, s) * {};\n",
+                            has_occluded_objects_ ? "o.occlusion * " : "",
                             has_occlusion_ ? fmt::format("open_part(at, {}[n]) * ", named("occlusion")) : "",
                             call(model_, "illuminate_ambient", "light", "r"));
         return text + "    }\n";
@@ -170,7 +173,8 @@ class LightLoop {
     const ExportedModel& model_;
     int casting_ = 0, others_ = 0;  // lights that cast shadows, and those that do not
     bool has_extents_ = false, has_occlusion_ = false;
-    bool is_placed_ = false;  // at a distance
+    bool has_occluded_objects_ = false;  // by their materials
+    bool is_placed_ = false;             // at a distance
 };
 
 std::string flags(const ExportedScene& scene) {

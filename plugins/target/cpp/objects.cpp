@@ -106,7 +106,12 @@ void CppObjects::add_object(std::size_t index) {
         add(scene_.reflections[i], material_member(scene_.reflections[i]), object.materials[i]);
     for (std::size_t i = 0; i < scene_.shadings.size(); ++i)
         add(scene_.shadings[i], shading_member(scene_.shadings[i]), object.shadings[i]);
-    if (!object.textured_numbers.empty()) {
+    const Rgb emission = emission_of(object, scene_.image.color_management);
+    if (has_emission(scene_) && emission != Rgb{})
+        text += fmt::format("        o.emission = vec3({});\n", list(emission.r, emission.g, emission.b));
+    if (object.occlusion != 1)
+        text += fmt::format("        o.occlusion = {};\n", float_text(object.occlusion));
+    if (!all_textured_numbers(object).empty()) {
         text += fmt::format("        o.textured = {};\n", textured_count_);
         textured_materials_ += textured_material(textured_count_++, object);
     }
@@ -126,13 +131,16 @@ std::string CppObjects::textured_material(std::size_t number, const ExportedObje
                            list(n.placing[0], n.placing[1], n.placing[2]),
                            list(n.placing[3], n.placing[4], n.placing[5]));
     };
-    const auto [texels, assignments] =
-        material_statements(scene_, object, {"        ", "const vec3", "m"}, lookup);
-    return fmt::format(
-        "    if (o.textured == {}) {{  // {}\n{}        {} m = {};\n{}        own.{} = {};\n    }}\n", number,
-        ascii_identifier(object.label), texels, model.plugin->kernel.parameters,
-        parameters_text(model, object.materials[object.reflection]), assignments, material_member(model),
-        prepared(model, "m"));
+    const auto [texels, assignments, common] = material_statements(
+        scene_, object, {"        ", "const vec3", "m", "own.emission", "own.occlusion"}, lookup);
+    std::string material;
+    if (!object.textured_numbers.empty())
+        material =
+            fmt::format("        {} m = {};\n{}        own.{} = {};\n", model.plugin->kernel.parameters,
+                        parameters_text(model, object.materials[object.reflection]), assignments,
+                        material_member(model), prepared(model, "m"));
+    return fmt::format("    if (o.textured == {}) {{  // {}\n{}{}{}    }}\n", number,
+                       ascii_identifier(object.label), texels, material, common);
 }
 
 std::string CppObjects::grid_text(const ExportedObject& object, const GridShape& grid,

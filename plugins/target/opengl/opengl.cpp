@@ -85,6 +85,8 @@ class OpenGlWriter {
             {"TRIANGLE_SIZES", is_textured() ? ", 3, 3, 3, 3, 3, 3, 4" : if_triangles(", 3, 3, 3, 3, 3, 3")},
             {"PUT_TRIANGLE", if_triangles(k_put_triangle)},
             {"OBJECTS", objects},
+            {"COMMON_MEMBERS", common_members()},
+            {"SET_COMMON", set_common()},
             {"PICTURE_FILE", std::string(image_file_source())}};
         const Values shadows = shadow_values(scene_);
         for (const Values& more : {about, texture_values(scene_, glsl), shadows})
@@ -235,12 +237,30 @@ class OpenGlWriter {
         return fmt::format("{{{}}}", fmt::join(all, ",\n      "));
     }
 
+    /// The keys of every material; empty in a scene without it.
+    std::string common_members() const {
+        return std::string(has_emission(scene_) ? "    vec3 emission;\n" : "") +
+               (has_occlusion(scene_) ? "    float occlusion;  // of ambient light\n" : "");
+    }
+    std::string set_common() const {
+        return std::string(has_emission(scene_) ? "            set(program, {\"object_emission\", "
+                                                  "Uniform::vector, object.emission});\n"
+                                                : "") +
+               (has_occlusion(scene_) ? "            set(program, {\"object_occlusion\", Uniform::real, "
+                                        "{object.occlusion, 0, 0}});\n"
+                                      : "");
+    }
+    std::string common_values(const ExportedObject& object) const {
+        return (has_emission(scene_) ? braces(emission_of(object, encoding_)) + ", " : "") +
+               (has_occlusion(scene_) ? float_text(object.occlusion) + ", " : "");
+    }
+
     std::string object_text(std::size_t index) {
         const ExportedObject& object = scene_.objects[index];
         const auto [is_closed, is_solid] = add_arrays(index);
-        return fmt::format("    {{\"{}\", {}, {}, {},\n     {},\n     {},\n     {}, object_{}(){}}},\n",
+        return fmt::format("    {{\"{}\", {}, {}{}, {},\n     {},\n     {},\n     {}, object_{}(){}}},\n",
                            ascii_identifier(object.label), braces(decoded(object.color, encoding_)),
-                           object.shading, object.reflection,
+                           common_values(object), object.shading, object.reflection,
                            all_uniforms(scene_.reflections, object.materials),
                            all_uniforms(scene_.shadings, object.shadings), is_closed, index,
                            texture_members(scene_, index) + shadow_members(scene_, object, is_solid));
@@ -295,6 +315,8 @@ class OpenGlTarget final : public Target {
                 .textures = true,
                 .textured_numbers = true,
                 .normal_maps = true,
+                .emission = true,
+                .occlusion = true,
                 .shadows = true,
                 .display = true};
     }

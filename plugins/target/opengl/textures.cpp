@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,8 +43,9 @@ constexpr const char* k_load =
 
 constexpr const char* k_material_members =
     "    int material;                                        // in k_materials; -1: no textures\n"
+    "    int common_material;                                 // with another reflection model\n"
     "    int normal_map;                                      // in k_normal_maps; -1: none\n"
-    "    std::vector<std::pair<std::size_t, bool>> pictures;  // of both, and whether they repeat\n";
+    "    std::vector<std::pair<std::size_t, bool>> pictures;  // of these, and whether they repeat\n";
 
 constexpr const char* k_bind =
     "            set_pixel(program, observer, view, height);\n"
@@ -55,9 +57,8 @@ constexpr const char* k_bind =
 /// drawn.
 std::string bind_materials(std::size_t most) {
     return fmt::format(
-        "            const bool reads_pictures = (object.material >= 0 && reflection == object.reflection) "
-        "|| "
-        "object.normal_map >= 0;\n"
+        "            const bool reads_pictures = (reflection == object.reflection ? object.material : "
+        "object.common_material) >= 0 || object.normal_map >= 0;\n"
         "            if (reads_pictures && object.texture < 0) set(program, {{\"color_texels\", "
         "Uniform::whole, "
         "{{6, 0, 0}}}});\n"
@@ -86,10 +87,12 @@ std::string declarations_of(const ExportedScene& scene) {
 }
 
 /// The texts that objects' programs have after their models.
-std::string texts_of(const char* name, const std::vector<std::string>& texts) {
+std::string texts_of(const char* name, std::initializer_list<const std::vector<std::string>*> lists) {
     std::string all = fmt::format("const std::vector<std::string> {} = {{\n", name);
-    for (const std::string& text : texts)
-        if (!text.empty()) all += fmt::format("    {},\n", raw(text));
+    for (const auto* const texts : lists) {
+        for (const std::string& text : *texts)
+            if (!text.empty()) all += fmt::format("    {},\n", raw(text));
+    }
     return all + "};\n";
 }
 
@@ -107,8 +110,8 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
     return {
         {"TEXTURE_SHADER",
          if_textures(fmt::format("const std::string k_texture = {};\n", raw(glsl.texture))) +
-             if_materials(texts_of("k_materials", glsl.materials) +
-                          texts_of("k_normal_maps", glsl.normal_maps))},
+             if_materials(texts_of("k_materials", {&glsl.materials, &glsl.common_materials}) +
+                          texts_of("k_normal_maps", {&glsl.normal_maps}))},
         {"TEXTURE_MEMBERS", if_textures(k_members) + if_materials(k_material_members)},
         {"TEXTURES", has_textures ? declarations_of(scene) : ""},
         {"PUT_TEXTURE", if_textures(corners + k_put_edges)},
@@ -117,8 +120,8 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
         {"LOAD_TEXTURES", if_textures(k_load)},
         {"BIND_TEXTURE", if_textures(k_bind) + if_materials(bind_materials(most_pictures))},
         {"MATERIAL_OF",
-         if_materials(
-             "        const int material = reflection == object.reflection ? object.material : -1;\n")},
+         if_materials("        const int material = reflection == object.reflection ? object.material : "
+                      "object.common_material;\n")},
         {"IS_TEXTURED", if_textures(", object.texture >= 0") + if_materials(", material, object.normal_map")},
         {"TEXTURE_TEXT",
          has_materials
@@ -138,10 +141,13 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
 std::string texture_members(const ExportedScene& scene, std::size_t index) {
     if (scene.textures.empty()) return "";
     const ExportedObject& object = scene.objects[index];
-    const auto is_textured = [](const ExportedObject& o) { return !o.textured_numbers.empty(); };
+    const auto is_textured = [](const ExportedObject& o) { return !all_textured_numbers(o).empty(); };
     const auto is_mapped = [](const ExportedObject& o) { return o.normal_map != nullptr; };
     const auto number = [&](const auto& is_one) {
         return is_one(object) ? std::ranges::count_if(scene.objects.first(index), is_one) : -1;
+    };
+    const auto has_common = [](const ExportedObject& o) {
+        return !o.emission_numbers.empty() || !o.occlusion_numbers.empty();
     };
     std::string text = object.color_texture == ExportedObject::k_no_texture
                            ? ", -1, true"
@@ -151,7 +157,10 @@ std::string texture_members(const ExportedScene& scene, std::size_t index) {
     for (const MaterialPicture& picture : material_pictures(object))
         pictures +=
             fmt::format("{}{{{}, {}}}", pictures.empty() ? "" : ", ", picture.texture, picture.repeats);
-    return text + fmt::format(", {}, {}, {{{}}}", number(is_textured), number(is_mapped), pictures);
+    const auto own_texts = std::ranges::count_if(scene.objects, is_textured);
+    return text + fmt::format(", {}, {}, {}, {{{}}}", number(is_textured),
+                              has_common(object) ? own_texts + number(has_common) : -1, number(is_mapped),
+                              pictures);
 }
 
 }  // namespace candela::opengl_target

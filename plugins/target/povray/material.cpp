@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 
 #include "candela/color.h"
 #include "candela/target/renderers.h"
+#include "candela/target/textures.h"
 #include "pigment.h"
 #include "text.h"
 
@@ -102,7 +104,7 @@ Finish finish_of(const ExportedReflection& model, const ExportedValues& values, 
 struct Surface {
     Vec3 color{};
     float diffuse = 0;
-    Vec3 ambient{};
+    Vec3 ambient{}, emission{};  // factors of the colour
     std::string highlight{};
     Vec3 tint{1, 1, 1};  // of the highlight, through a layer that filters
     bool has_filter = false;
@@ -113,12 +115,23 @@ Surface surface_of(const ExportedScene& scene, const ExportedObject& object, Vec
     const Vec3 color = target::times({decoded_color.r, decoded_color.g, decoded_color.b}, shade);
     const Finish finish =
         finish_of(scene.reflections[object.reflection], object.materials[object.reflection], color, files);
-    Surface surface{.color = color, .diffuse = finish.diffuse.x, .ambient = finish.ambient};
+    Surface surface{
+        .color = color, .diffuse = finish.diffuse.x, .ambient = object.occlusion * finish.ambient};
     if (!is_grey(finish.diffuse)) {
         const Vec3 share = at_least_tiny(finish.diffuse);
         surface.color = target::times(surface.color, share);
         surface.diffuse = 1;
-        surface.ambient = over(finish.ambient, share);
+        surface.ambient = over(surface.ambient, share);
+    }
+    const Rgb emission = target::emission_of(object, scene.image.color_management);
+    if (emission != Rgb{}) {
+        if (object.color_texture != ExportedObject::k_no_texture)
+            throw std::runtime_error(fmt::format(
+                "object {} emits light and has a color_texture, by which POV-Ray multiplies what a surface "
+                "emits; remove one of them",
+                object.label));
+        surface.color = at_least_tiny(surface.color);
+        surface.emission = over({emission.r, emission.g, emission.b}, surface.color);
     }
     if (finish.kind == HighlightKind::none) return surface;
     const bool is_white = is_grey(finish.specular);
@@ -134,9 +147,13 @@ Surface surface_of(const ExportedScene& scene, const ExportedObject& object, Vec
 
 /// `from_behind`: lit only from there, without a highlight.
 std::string layer_text(const Surface& surface, const Pigment& pigment, bool from_behind) {
-    return fmt::format("texture {{ pigment {{ {} }} finish {{ ambient {} diffuse {}{}{} }} }}", pigment.text,
-                       rgb_text(pigment.factor * surface.ambient), from_behind ? "0, " : "",
-                       pigment.factor * surface.diffuse, from_behind ? "" : surface.highlight);
+    const std::string emission =
+        surface.emission == Vec3{} ? ""
+                                   : fmt::format(" emission {}", rgb_text(pigment.factor * surface.emission));
+    return fmt::format("texture {{ pigment {{ {} }} finish {{ ambient {}{} diffuse {}{}{} }} }}",
+                       pigment.text, rgb_text(pigment.factor * surface.ambient), emission,
+                       from_behind ? "0, " : "", pigment.factor * surface.diffuse,
+                       from_behind ? "" : surface.highlight);
 }
 
 std::string filter_text(const Surface& surface) {

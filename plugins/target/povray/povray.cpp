@@ -94,6 +94,8 @@ class PovRayTarget final : public Target {
                 .textures = true,
                 .textured_numbers = true,
                 .normal_maps = true,
+                .emission = true,
+                .occlusion = true,
                 .shadows = true};
     }
     const char* main_file() const noexcept override { return "scene.pov"; }

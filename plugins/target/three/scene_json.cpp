@@ -17,6 +17,7 @@
 #include "candela/target/kernels.h"
 #include "candela/target/renderers.h"
 #include "candela/target/shadow_tree.h"
+#include "candela/target/textures.h"
 #include "lights.h"
 #include "uniforms.h"
 
@@ -119,13 +120,14 @@ class Writer {
         const auto ka = rgb_value(model, values, "ka"), kd = rgb_value(model, values, "kd");
         if (std::string_view(model.id) != "reflection/lambert" || !ka || !kd ||
             !is_smooth(scene_.shadings[object.shading]) ||
-            object.color_texture != ExportedObject::k_no_texture || !object.textured_numbers.empty() ||
-            object.normal_map != nullptr)
+            object.color_texture != ExportedObject::k_no_texture || !material_pictures(object).empty())
             return {};
         Vec3 ambient{};
         for (const ExportedLight& light : scene_.lights)
             ambient = ambient + Vec3{light.ambient.r, light.ambient.g, light.ambient.b};
-        const Vec3 emissive = times(times(*ka, color), ambient);
+        const Rgb emission = emission_of(object, scene_.image.color_management);
+        const Vec3 emissive =
+            object.occlusion * times(times(*ka, color), ambient) + Vec3{emission.r, emission.g, emission.b};
         // Emitted light is not multiplied by the colours of vertices.
         if (!mesh["color"].is_null() && !(emissive == Vec3{})) return {};
         return {{"color", vector_json(times(*kd, color))}, {"emissive", vector_json(emissive)}};
@@ -151,10 +153,13 @@ class Writer {
                        {"shading", struct_json(shading, object.shadings[object.shading])}}},
                      {"texture", is_textured ? Json(object.color_texture) : Json()},
                      {"texture_repeats", object.color_texture_repeats},
-                     {"material", object.textured_numbers.empty() ? Json() : Json(index)},
+                     {"material", target::all_textured_numbers(object).empty() ? Json() : Json(index)},
                      {"normal_map", object.normal_map == nullptr ? Json() : Json(index)},
                      {"material_pictures", pictures_json(object)},
                      {"mesh", std::move(mesh)}};
+        const Rgb emission = emission_of(object, scene_.image.color_management);
+        if (has_emission(scene_)) json["uniforms"]["object_emission"] = {emission.r, emission.g, emission.b};
+        if (has_occlusion(scene_)) json["uniforms"]["object_occlusion"] = object.occlusion;
         if (scene_.has_shadows) {
             json["is_solid"] = bool{is_solid_[index]};
             json["uniforms"]["object_index"] = index;

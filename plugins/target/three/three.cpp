@@ -52,6 +52,8 @@ class ThreeTarget final : public Target {
                 .textures = true,
                 .textured_numbers = true,
                 .normal_maps = true,
+                .emission = true,
+                .occlusion = true,
                 .shadows = true,
                 .display = true};
     }

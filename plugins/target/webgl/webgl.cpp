@@ -22,6 +22,7 @@
 #include "candela/target/page_image.h"
 #include "candela/target/shadow_tree.h"
 #include "candela/target/text_template.h"
+#include "candela/target/textures.h"
 #include "candela/target_plugin.h"
 
 CANDELA_EMBED(candela_webgl_page, CANDELA_SOURCE_DIR "/templates/page.html");
@@ -200,6 +201,7 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         fixed_shadings[model.plugin->name] = fixed_json(model, object.shadings[i]);
     }
     const ExportedMesh mesh = scene.geometry->in_world_space(index);
+    const bool has_common = !object.emission_numbers.empty() || !object.occlusion_numbers.empty();
     Json json = {
         {"label", object.label},
         {"color", vector_json(object.color)},
@@ -212,10 +214,14 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         {"texture",
          object.color_texture == ExportedObject::k_no_texture ? Json() : Json(object.color_texture)},
         {"texture_repeats", object.color_texture_repeats},
-        {"material", object.textured_numbers.empty() ? Json() : Json(index)},
+        {"material", all_textured_numbers(object).empty() ? Json() : Json(index)},
+        {"common_material", has_common ? Json(scene.objects.size() + index) : Json()},
         {"normal_map", object.normal_map == nullptr ? Json() : Json(index)},
         {"material_pictures", pictures_json(object)},
         {"mesh", mesh_json(scene, mesh, arrays)}};
+    const Rgb emission = emission_of(object, scene.image.color_management);
+    if (has_emission(scene)) json["emission"] = {emission.r, emission.g, emission.b};
+    if (has_occlusion(scene)) json["occlusion"] = object.occlusion;
     if (scene.has_shadows) {
         json["receives_shadows"] = object.receives_shadows;
         json["is_solid"] = mesh.is_solid;
@@ -294,6 +300,8 @@ Json observer_json(const ExportedObserver& observer) {
 /// Adds the arrays that it names to the page.
 Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
     const GlslParts glsl = glsl_of(scene);
+    std::vector<std::string> materials = glsl.materials;
+    materials.insert(materials.end(), glsl.common_materials.begin(), glsl.common_materials.end());
     Json lights = Json::array(), objects = Json::array();
     Json light_models = Json::object(), reflections = Json::object(), shadings = Json::object();
     for (const ExportedLight& light : scene.lights) {
@@ -334,7 +342,7 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
                   {{"prelude", glsl.prelude},
                    {"library", whole_glsl_prelude()},
                    {"texture", glsl.texture},
-                   {"materials", glsl.materials},
+                   {"materials", materials},
                    {"normal_maps", glsl.normal_maps},
                    {"lights", glsl.lights},
                    {"vertex", glsl.vertex},
@@ -370,6 +378,8 @@ class WebGlTarget final : public Target {
                 .textures = true,
                 .textured_numbers = true,
                 .normal_maps = true,
+                .emission = true,
+                .occlusion = true,
                 .shadows = true,
                 .display = true};
     }

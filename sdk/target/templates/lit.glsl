@@ -24,5 +24,5 @@ vec3 intensity_at(vec3 place, ShadingPoint point, vec3 color, float facing) {
     s.uv = point.uv;
 #endif
 @SEEN_SIDE@
-    return lights_at(s, Receiver(place, s.normal));
+    return lights_at(s, Receiver(place, s.normal))@EMISSION@;
 }

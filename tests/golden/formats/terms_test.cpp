@@ -228,6 +228,31 @@ TEST_CASE("terms add up to the picture, and so do lights, surroundings and backg
     }
 }
 
+TEST_CASE("what surfaces emit is a term of its own, which no light has") {
+    std::string scene = k_many;
+    scene +=
+        "\n[[object]]\nname = \"lamp\"\ntype = \"sphere\"\nradius = 0.4\nposition = [0, 0.6, 1.5]\n"
+        "shading = \"phong\"\nreflection = \"lambert\"\n[object.material]\nemission = [51, 102, "
+        "255]\nemission_strength = 3\n";
+    const Layers layers = render_layers(scratch_directory(), scene,
+                                        "ambient,diffuse,specular,light,surroundings,background,emission");
+    const std::vector<std::string> terms{"ambient", "diffuse", "specular", "background", "emission"};
+    const std::vector<std::string> lights{"light.lamp", "light.1",      "light.2",    "light.3",
+                                          "light.4",    "surroundings", "background", "emission"};
+    double emitted = 0;
+    for (int y = 0; y < layers.height; ++y) {
+        for (int x = 0; x < layers.width; ++x) {
+            for (const auto& names : {terms, lights}) {
+                double sum = 0;
+                for (const std::string& name : names) sum += double{layers.at(name + ".G", x, y)};
+                REQUIRE(sum == Approx(double{layers.at("G", x, y)}).margin(2e-6).epsilon(2e-6));
+            }
+            emitted = std::max(emitted, double{layers.at("emission.G", x, y)});
+        }
+    }
+    CHECK(emitted == Approx(3 * std::pow((102 / 255.0 + 0.055) / 1.055, 2.4)).epsilon(1e-5));
+}
+
 TEST_CASE("geometric terms are those at the centre of each pixel, whatever the number of samples") {
     const auto folder = scratch_directory();
     const std::string terms = "depth,position,face_normal,barycentric,uv,facing,object,triangle";

@@ -217,7 +217,7 @@ vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGL
     Receiver r;
     r.position = place;
     r.normal = s.normal;
-    return lights_at(@LIT@, s, r@PLACE@);
+    return lights_at(@LIT@, s, r@PLACE@)@EMISSION@;
 }
 
 template <class T>

@@ -76,6 +76,7 @@ struct Uniform {
 struct Object {
     const char* name;
     vec3 color;
+@COMMON_MEMBERS@
     std::size_t shading, reflection;
     std::vector<std::vector<Uniform>> materials, shadings;  // for each model
     bool is_closed;                                         // otherwise it is seen and lit from both sides
@@ -415,6 +416,7 @@ class Renderer {
             set(program, {"is_orthographic", Uniform::whole, {observer.is_perspective ? 0.0f : 1.0f, 0, 0}});
             set(program, {"towards_observer", Uniform::vector, -1.0f * view.forward});
             set(program, {"object_color", Uniform::vector, object.color});
+@SET_COMMON@
             for (const Uniform& u : object.materials[reflection]) set(program, u, "material.");
             for (const Uniform& u : object.shadings[shading]) set(program, u, "shading.");
 @BIND_TEXTURE@

@@ -57,6 +57,14 @@ export function materialUniforms(settings, index, reflection) {
         scene.objects[index].fixed.material[reflection], "material", isSrgb);
 }
 
+/** The uniforms of emission and occlusion, in a scene where objects have it. */
+function commonUniforms({ emission, occlusion }) {
+    return [
+        ...(emission ? [["object_emission", { kind: "vec3", value: emission }]] : []),
+        ...(occlusion !== undefined ? [["object_occlusion", { kind: "float", value: occlusion }]] : []),
+    ];
+}
+
 /** The factor of intensities: 1 / (1.2 · 2^EV), or the scene's own. */
 function exposureFactor(settings) {
     const value = settings.get(EXPOSURE_PATH);
@@ -76,17 +84,18 @@ export function appearanceOf(settings) {
     const objects = scene.objects.map((object, i) => {
         const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
         const shadingModel = scene.shading_models[shading];
+        const material = reflection === object.reflection ? object.material : object.common_material;
         return {
             shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
             hasColorTexture: object.texture !== null,
-            material: reflection === object.reflection ? object.material : null,
-            normalMap: object.normal_map,
-            isTextured: object.texture !== null || object.material !== null || object.normal_map !== null,
+            material, normalMap: object.normal_map,
+            isTextured: object.texture !== null || material !== null || object.normal_map !== null,
             uniforms: [
                 ["object_index", { kind: "int", value: i }],
                 ["is_shadowed", { kind: "int", value: hasShadows && object.receives_shadows ? 1 : 0 }],
                 ["blocks_both_sides", { kind: "int", value: object.is_solid ? 0 : 1 }],
                 ["object_color", toUniform(COLOR, settings.get(`object.${i}.color`), isSrgb)],
+                ...commonUniforms(object),
                 ...materialUniforms(settings, i, reflection),
                 ...modelUniforms(
                     settings, shadingModel, `object.${i}.shading.${shading}.`, object.fixed.shading[shading], "shading", isSrgb),

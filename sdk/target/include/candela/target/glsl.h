@@ -16,8 +16,12 @@ namespace candela::target {
 /// If an object of the scene has a material with textures, `texture` is for objects that have such a material
 /// or a texture of their colour, or both, and is followed by "#define TEXTURED_COLOR" for the latter. An
 /// object with a material that has textures, and its own reflection model, has "#define TEXTURED_MATERIAL"
-/// before that model, and its text of `materials` behind its shading model; one with a normal map has its
-/// text of `normal_maps` there.
+/// before that model, and its text of `materials` behind its shading model; drawn with another model, its
+/// text of `common_materials` in the same way, unless that is empty. One with a normal map has its text of
+/// `normal_maps` there as well.
+///
+/// In a scene with emission, shaders read an object's emission_of() from `object_emission`; in one with
+/// occlusion, ExportedObject::occlusion from `object_occlusion`.
 struct GlslParts {
     std::string prelude;
     std::string texture;  // empty unless an object of the scene has one
@@ -25,6 +29,7 @@ struct GlslParts {
     std::vector<std::string> reflections, shadings;  // in the scene's order
     std::vector<std::string> materials;              // of objects; empty unless textures give numbers of it
     std::vector<std::string> normal_maps;            // of objects; empty unless a picture tilts its normals
+    std::vector<std::string> common_materials;       // the part that any reflection model has
     std::string vertex, fragment;
     std::string screen, accumulate, encode;
 };

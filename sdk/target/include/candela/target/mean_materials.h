@@ -29,6 +29,9 @@ class MeanMaterials {
     const ExportedScene& scene() const noexcept { return scene_; }
 
   private:
+    /// Of emission and occlusion.
+    void take_common(ExportedObject& object, FileSink& files) const;
+
     ExportedScene scene_;
     std::vector<ExportedObject> objects_;
     std::vector<std::vector<ExportedValues>> materials_;

@@ -1,0 +1,50 @@
+// The keys of every material: emission, and the occlusion of ambient light.
+module;
+
+#include <array>
+#include <cstddef>
+
+module candela.shading;
+
+import :clearing;
+import :common_material;
+import candela.api;
+import candela.raster;
+
+namespace candela {
+
+void find_emission(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count,
+                   const Vec3Span& values) {
+    clear(values, count);
+    add_emission(surface, points, count, values);
+}
+
+void add_emission(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count,
+                  const Vec3Span& intensity) {
+    const std::array factors{surface.emission.r, surface.emission.g, surface.emission.b};
+    const std::array sums{intensity.x, intensity.y, intensity.z};
+    const std::size_t first = surface.material_textures.emission;
+    for (std::size_t c = 0; c < sums.size(); ++c) {
+        if (first == MaterialTextures::k_none) {
+            for (std::size_t i = 0; i < count; ++i) sums[c][i] += factors[c];
+        } else {
+            const float* const texture = points.parameters[first + c].data();
+            for (std::size_t i = 0; i < count; ++i) sums[c][i] += factors[c] * texture[i];
+        }
+    }
+}
+
+float occlusion_at(const SurfaceModels& surface, const SurfacePoints& points, std::size_t point) {
+    const std::size_t number = surface.material_textures.occlusion;
+    return number == MaterialTextures::k_none ? surface.occlusion : points.parameters[number][point];
+}
+
+void occlude(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count,
+             const Vec3Span& ambient) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const float open = occlusion_at(surface, points, i);
+        ambient.set(i, {open * ambient.x[i], open * ambient.y[i], open * ambient.z[i]});
+    }
+}
+
+}  // namespace candela
