@@ -73,10 +73,15 @@ class MaterialReader {
         if (keyword == "ka") return color(rest, to.ka);
         if (keyword == "kd") return color(rest, to.kd);
         if (keyword == "ks") return color(rest, to.ks);
+        if (keyword == "ke") return color(rest, to.ke);
         if (keyword == "map_kd") {
             MtlMap map = texture(rest);
             to.texture = std::move(map.file);
             to.clamps = map.clamps;
+            return;
+        }
+        if (keyword == "map_ke") {
+            to.emission_map = texture(rest);
             return;
         }
         if (keyword == "map_pr" || keyword == "map_pm") {
@@ -96,15 +101,12 @@ class MaterialReader {
         } else if (keyword == "d" || keyword == "tr") {
             if (numbers.empty() || first != (keyword == "d" ? 1 : 0))
                 note("the opacity of materials is left out; they are opaque");
-        } else if (keyword == "ke") {
-            if (std::ranges::any_of(numbers, [](double x) { return x > 0; }))
-                note("the light that materials emit is left out");
         } else if (keyword.starts_with("map_") || keyword == "disp" || keyword == "decal" ||
                    keyword == "refl") {
-            note(fmt::format(
-                "textures other than those of colour, roughness, metalness and normals are left out, such as "
-                "'{}'",
-                keyword));
+            note(
+                fmt::format("textures other than those of colour, emission, roughness, metalness and normals "
+                            "are left out, such as '{}'",
+                            keyword));
         } else if (std::optional<double>* const value = physical(keyword, to)) {
             if (!numbers.empty()) *value = first;
         } else if (keyword == "tf") {

@@ -8,11 +8,11 @@
 
 namespace mesh_io {
 
-/// A picture of numbers.
+/// A picture of numbers, or of a colour.
 struct MtlMap {
     std::string file;       // as the library names it; empty: none
     bool clamps = false;    // at its edges
-    char channel = 'r';     // r, g or b
+    char channel = 'r';     // of numbers: r, g or b
     double multiplier = 1;  // -bm, of a bump map
 };
 
@@ -20,6 +20,8 @@ struct MtlMap {
 struct MtlMaterial {
     std::string name;                // with a possible comment
     std::vector<double> ka, kd, ks;  // three numbers; empty if absent
+    std::vector<double> ke;          // the same
+    MtlMap emission_map{};           // map_Ke
     double shininess = 0;            // Ns
     int illumination = 2;            // illum
     std::string texture;             // map_Kd, as the file names it

@@ -88,6 +88,8 @@ Material Materials::metallic_roughness(const Json& from, const std::string& name
     add(map, Channel::green, "roughness", {roughness}, {0}, result);
     add_extensions(extensions, name, result);
     textures_.tilt_normals(from, name, result);
+    add_emission(from, name, result);
+    add_occlusion(from, name, result);
     textures_.cut_out(from, base[3], image, result);
     note_losses(from);
     return result;
@@ -107,6 +109,8 @@ Material Materials::specular_glossiness(const Json& from, const Json& extension,
     add(map, Channel::rgb, "specular_color", specular, {0}, result);
     add(map, Channel::alpha, "glossiness", {glossiness}, {0}, result);
     textures_.tilt_normals(from, name, result);
+    add_emission(from, name, result);
+    add_occlusion(from, name, result);
     textures_.cut_out(from, base[3], image, result);
     note_losses(from);
     return result;
@@ -180,6 +184,34 @@ void Materials::add_extensions(const Json& extensions, const std::string& name, 
     }
 }
 
+void Materials::add_emission(const Json& from, const std::string& name, Material& to) {
+    std::vector<double> factor = numbers(from, "emissiveFactor", 3);
+    for (double& channel : factor) channel = std::clamp(channel, 0.0, 1.0);
+    const Json& extension = object_of(object_of(from, "extensions"), "KHR_materials_emissive_strength");
+    constexpr double k_strongest = 1e30;
+    const double strength = std::clamp(number(extension, "emissiveStrength", 1), 0.0, k_strongest);
+    if (strength == 0 || std::ranges::none_of(factor, [](double x) { return x > 0; })) return;
+    for (double& channel : factor) channel *= strength;
+    set_emission(factor, to);
+    const auto map = textures_.texture(from, "emissiveTexture", name);
+    if (!map) return;
+    for (double& channel : factor) channel /= to.emission_strength;
+    const std::size_t maps = to.maps.size();
+    std::vector<double> mean = textures_.map(*map, Channel::rgb, "emission", factor, {0}, to);
+    if (to.maps.size() > maps) return;
+    // The picture has one colour.
+    for (double& channel : mean) channel *= to.emission_strength;
+    set_emission(mean, to);
+}
+
+void Materials::add_occlusion(const Json& from, const std::string& name, Material& to) {
+    const Json& info = object_of(from, "occlusionTexture");
+    const double strength = std::clamp(number(info, "strength", 1), 0.0, 1.0);
+    if (strength == 0) return;
+    if (const auto map = textures_.texture(from, "occlusionTexture", name))
+        add(map, Channel::red, "occlusion", {strength}, {1 - strength}, to);
+}
+
 double Materials::direction_in(const Textures::Placed& map) {
     const Means& means = map.image->means;
     if (!means.are_equal[0] || !means.are_equal[1])
@@ -191,12 +223,6 @@ double Materials::direction_in(const Textures::Placed& map) {
 }
 
 void Materials::note_losses(const Json& from) {
-    if (find(from, "occlusionTexture") != nullptr)
-        model_.count("occlusion maps", "an occlusion map is left out", "{} occlusion maps are left out");
-    const std::vector<double> emission = numbers(from, "emissiveFactor", 3);
-    if (std::ranges::any_of(emission, [](double x) { return x > 0; }))
-        model_.count("emission", "the light that a material emits is left out",
-                     "the light that {} materials emit is left out");
     const Json& extensions = object_of(from, "extensions");
     for (const auto& [name, unused] : extensions.items()) {
         constexpr std::array k_read = {"KHR_materials_ior",
@@ -205,6 +231,7 @@ void Materials::note_losses(const Json& from) {
                                        "KHR_materials_sheen",
                                        "KHR_materials_anisotropy",
                                        "KHR_materials_iridescence",
+                                       "KHR_materials_emissive_strength",
                                        "KHR_materials_pbrSpecularGlossiness"};
         if (std::ranges::find(k_read, name) != k_read.end()) continue;
         model_.count(name, fmt::format("the extension '{}' of a material is left out", name),

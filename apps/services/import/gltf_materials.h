@@ -31,6 +31,9 @@ class Materials {
              const std::vector<double>& scale, const std::vector<double>& offset, Material& to);
     /// The parts of a material that extensions add, each only if the file has it.
     void add_extensions(const Json& extensions, const std::string& name, Material& to);
+    /// The parts of a material that do not depend on how it reflects.
+    void add_emission(const Json& from, const std::string& name, Material& to);
+    void add_occlusion(const Json& from, const std::string& name, Material& to);
     /// The mean angle in the texture of KHR_materials_anisotropy, in radians.
     double direction_in(const Textures::Placed& map);
 

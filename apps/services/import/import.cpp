@@ -32,6 +32,17 @@ Vector encoded(const std::vector<double>& linear) {
     return color;
 }
 
+void set_emission(const std::vector<double>& intensity, Material& to) {
+    const double strength = *std::ranges::max_element(intensity);
+    to.emission = {0, 0, 0};
+    to.emission_strength = 1;
+    if (!(strength > 0)) return;
+    std::vector<double> share = intensity;
+    for (double& channel : share) channel /= strength;
+    to.emission = encoded(share);
+    to.emission_strength = strength;
+}
+
 void Model::note(std::string sentence) {
     if (std::ranges::find(notes, sentence) == notes.end()) notes.push_back(std::move(sentence));
 }

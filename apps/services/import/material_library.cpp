@@ -209,6 +209,29 @@ void MaterialLibraries::tilt_normals(const Description& description, Material& t
                               .clamps = map.clamps};
 }
 
+void MaterialLibraries::add_emission(const Description& description, Material& to) {
+    const mesh_io::MtlMaterial& from = description.material;
+    constexpr double k_strongest = 1e30;
+    std::vector<double> color = from.ke;
+    for (double& channel : color) channel = std::clamp(channel, 0.0, k_strongest);
+    const auto picture =
+        from.emission_map.file.empty() ? std::nullopt : image(from.emission_map.file, to.name, description);
+    // Black next to a texture means the texture, as for Kd.
+    if (picture && (color.empty() || are_all(color, 0))) color = {1, 1, 1};
+    if (color.empty()) return;
+    set_emission(color, to);
+    if (!picture) return;
+    std::vector<double> scale;
+    for (const double channel : color)
+        scale.push_back(std::round(1e4 * channel / to.emission_strength) / 1e4);
+    if (are_all(scale, scale[0])) scale.resize(1);
+    to.maps.push_back({.parameter = "emission",
+                       .image = picture->index,
+                       .channel = "",
+                       .scale = std::move(scale),
+                       .clamps = from.emission_map.clamps});
+}
+
 Material MaterialLibraries::material(const std::string& name) {
     const Description& description = *find(name);
     const mesh_io::MtlMaterial& d = description.material;
@@ -218,6 +241,7 @@ Material MaterialLibraries::material(const std::string& name) {
         material.clamps = d.clamps;
     }
     tilt_normals(description, material);
+    add_emission(description, material);
     if (is_physical(d)) {
         become_metallic_roughness(description, material);
         return material;

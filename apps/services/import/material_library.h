@@ -57,6 +57,7 @@ class MaterialLibraries {
     /// Makes offset + scale times a channel of a picture the values of a parameter.
     static void add(const mesh_io::MtlMap& map, const MeasuredImage& picture, const char* parameter,
                     double scale, double offset, Material& to);
+    void add_emission(const Description& from, Material& to);
     std::vector<double> coefficients(const std::vector<double>& value, double otherwise);
     /// The picture of that name.
     std::optional<MeasuredImage> image(const std::string& file, const std::string& material,

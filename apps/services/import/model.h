@@ -87,11 +87,16 @@ struct Material {
     std::vector<std::pair<std::string, std::vector<double>>> values{};  // parameters of the reflection model
     std::vector<ParameterMap> maps{};       // of parameters whose means are in `values`
     std::optional<ParameterMap> normals{};  // a normal map, whose scale makes it steeper
-    std::optional<std::size_t> image{};     // index in Model::images
-    bool clamps = false;                    // the picture is clamped at its edges
-    std::optional<std::size_t> cutout{};    // index in Model::cutouts
+    Vector emission{0, 0, 0};               // 0-255, unless it is one of the maps
+    double emission_strength = 1;
+    std::optional<std::size_t> image{};   // index in Model::images
+    bool clamps = false;                  // the picture is clamped at its edges
+    std::optional<std::size_t> cutout{};  // index in Model::cutouts
     double cutout_level = 0.5;
 };
+
+/// Makes linear intensities of any brightness the emission of a material: a colour and its strength.
+void set_emission(const std::vector<double>& intensity, Material& to);
 
 /// The side from which triangles are visible, as for the shape's parameter `sides`.
 enum class Sides { outside, front, both };

@@ -227,8 +227,16 @@ class Writer {
                 add(name, map != material->maps.end() && setting_.is_textured ? text_of(*map)
                                                                               : numbers_text(value));
             }
+            add_emission(*material);
         }
         end();
+    }
+    void add_emission(const Material& material) {
+        const auto map = std::ranges::find(material.maps, "emission", &ParameterMap::parameter);
+        const bool is_textured = map != material.maps.end() && setting_.is_textured;
+        if (!is_textured && material.emission == Vector{0, 0, 0}) return;
+        add("emission", is_textured ? text_of(*map) : color(material.emission));
+        if (material.emission_strength != 1) add("emission_strength", real(material.emission_strength));
     }
     static std::string numbers_text(const std::vector<double>& v) {
         return v.size() == 3 ? vector_text({v[0], v[1], v[2]}) : real(v[0]);

@@ -7,6 +7,7 @@
 
 #include "candela/target/files.h"
 #include "candela/target/renderers.h"
+#include "candela/target/textures.h"
 #include "candela/target_plugin.h"
 #include "document.h"
 #include "lights.h"
@@ -83,7 +84,8 @@ class Writer {
         if (has_tangents)
             attributes["TANGENT"] = document_.add_tangents(mesh.dpdu, mesh.dpdv, normals, count);
         const bool is_textured = object.color_texture != ExportedObject::k_no_texture ||
-                                 !object.textured_numbers.empty() || object.normal_map != nullptr;
+                                 !target::all_textured_numbers(object).empty() ||
+                                 object.normal_map != nullptr;
         if (mesh.uv && (has_tangents || is_textured))
             attributes["TEXCOORD_0"] = document_.add_texture_coordinates(mesh.uv, count);
         if (mesh.color) attributes["COLOR_0"] = document_.add_vectors(mesh.color, count);
@@ -114,6 +116,8 @@ class GltfTarget final : public Target {
                 .textures = true,
                 .textured_numbers = true,
                 .normal_maps = true,
+                .emission = true,
+                .occlusion = true,
                 .shadows = true,  // programs that show the file cast their own, and expose it
                 .display = true};
     }

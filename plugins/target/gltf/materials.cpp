@@ -14,6 +14,7 @@
 #include "candela/color.h"
 #include "candela/target/mean_materials.h"
 #include "candela/target/renderers.h"
+#include "candela/target/textures.h"
 #include "metallic_roughness.h"
 
 namespace candela::gltf_target {
@@ -142,6 +143,10 @@ std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
         material["pbrMetallicRoughness"]["baseColorTexture"]["index"] =
             pictures_.texture_of(pictures_.file_of(object.color_texture), object.color_texture_repeats);
     maps_.add_normals(object, material);
+    if (is_unlit && target::emission_of(object, scene_.image.color_management) != Rgb{})
+        files_.approximate("what an unlit material emits is left out by programs that show the file");
+    maps_.add_emission(object, material);
+    maps_.add_occlusion(object, material);
     if (!is_closed) material["doubleSided"] = true;
     return document_.add("materials", std::move(material));
 }

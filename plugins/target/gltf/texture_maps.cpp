@@ -12,6 +12,7 @@
 
 #include "candela/color.h"
 #include "candela/target/mean_materials.h"
+#include "candela/target/textures.h"
 
 namespace candela::gltf_target {
 
@@ -34,6 +35,7 @@ struct TextureMaps::Map {
     std::span<const Channel> channels;
     const char* minimum = nullptr;  // the factor of black, if there is one
     bool has_direction = false;     // in red and green, which stay that of the tangent
+    bool has_factor = true;         // otherwise the picture has the values themselves
 };
 
 namespace {
@@ -77,6 +79,14 @@ constexpr TextureMaps::Map k_maps[] = {
     {k_glossy, nullptr, "metallicRoughnessTexture", false, 1, k_gloss},
     {k_glossy, k_specular, "specularColorTexture", true, 1, k_specular_color},
 };
+
+constexpr Channel k_emission[] = {{"emission", 0, 0, "emissiveFactor"},
+                                  {"emission", 1, 1, "emissiveFactor"},
+                                  {"emission", 2, 2, "emissiveFactor"}};
+constexpr Channel k_occlusion[] = {{"occlusion", 0, 0, nullptr}};
+constexpr TextureMaps::Map k_emission_map{nullptr, nullptr, "emissiveTexture", true, 1, k_emission};
+constexpr TextureMaps::Map k_occlusion_map{
+    nullptr, nullptr, "occlusionTexture", false, 1, k_occlusion, nullptr, false, false};
 
 bool is_placed_like(const ExportedTexturedNumber& a, const ExportedTexturedNumber& b) {
     return a.repeats == b.repeats && std::ranges::equal(a.placing, b.placing);
@@ -194,12 +204,56 @@ void TextureMaps::add(const ExportedObject& object, const Map& map, std::vector<
         set_factor(to, *sources[i].channel, sources.size() == 3 ? 3 : 1, picture->highest[i]);
         if (map.minimum != nullptr) to[map.minimum] = picture->lowest[i];
     }
-    Json& info = to[map.name];
-    info["index"] = pictures_.texture_of(picture->image, first->number->repeats);
-    if (auto transform = transform_json(first->number->placing)) {
+    to[map.name] = info_of(*picture, *first->number);
+}
+
+Json TextureMaps::info_of(const Picture& picture, const ExportedTexturedNumber& placed) {
+    Json info = {{"index", pictures_.texture_of(picture.image, placed.repeats)}};
+    if (auto transform = transform_json(placed.placing)) {
         info["extensions"]["KHR_texture_transform"] = std::move(*transform);
         document_.use_extension("KHR_texture_transform");
     }
+    return info;
+}
+
+void TextureMaps::add_emission(const ExportedObject& object, Json& material) {
+    const Rgb emission = target::emission_of(object, scene_.image.color_management);
+    if (emission == Rgb{}) return;
+    std::array<float, 3> factor{emission.r, emission.g, emission.b};
+    if (!object.emission_numbers.empty()) {
+        std::vector<Source> sources;
+        for (std::size_t c = 0; c < 3; ++c)
+            sources.push_back({.channel = &k_emission[c], .number = &object.emission_numbers[c]});
+        auto picture = file_of(k_emission_map, sources);
+        if (!picture) picture = baked(k_emission_map, sources);
+        for (std::size_t c = 0; c < 3; ++c) factor[c] *= picture->highest[c];
+        material["emissiveTexture"] = info_of(*picture, object.emission_numbers.front());
+    }
+    const float strength = std::max(*std::ranges::max_element(factor), 1.0f);
+    material["emissiveFactor"] = {factor[0] / strength, factor[1] / strength, factor[2] / strength};
+    if (strength == 1) return;
+    material["extensions"]["KHR_materials_emissive_strength"]["emissiveStrength"] = strength;
+    document_.use_extension("KHR_materials_emissive_strength");
+}
+
+void TextureMaps::add_occlusion(const ExportedObject& object, Json& material) {
+    if (object.occlusion_numbers.empty()) {
+        if (object.occlusion != 1)
+            files_.approximate(
+                fmt::format("the occlusion of object {}, which has no texture, is left out", object.label)
+                    .c_str());
+        return;
+    }
+    const ExportedTexturedNumber& number = object.occlusion_numbers.front();
+    const std::vector<Source> sources{{.channel = &k_occlusion[0], .number = &number}};
+    constexpr float k_rounding = 1e-4f;
+    const bool is_strength = number.texel_channel == 0 && number.scale > 0 && number.scale <= 1 &&
+                             std::abs(number.offset + number.scale - 1) < k_rounding;
+    const auto file = is_strength ? pictures_.file_of(number.texture, false) : std::nullopt;
+    const Picture picture =
+        file ? Picture{.image = *file, .lowest = {}, .highest = {}} : baked(k_occlusion_map, sources);
+    material["occlusionTexture"] = info_of(picture, number);
+    if (file && number.scale != 1) material["occlusionTexture"]["strength"] = number.scale;
 }
 
 void TextureMaps::add_normals(const ExportedObject& object, Json& material) {
@@ -300,7 +354,7 @@ TextureMaps::Picture TextureMaps::baked(const Map& map, const std::vector<Source
         // A factor that the picture had anyway leaves its bytes as they were.
         const bool is_factor = !source.channel->is_inverted && n.offset == 0 && n.scale > 0 &&
                                n.scale <= map.most && n.scale <= n.maximum && n.minimum <= 0;
-        high = is_factor ? n.scale : most;
+        high = !map.has_factor ? 1 : is_factor ? n.scale : most;
         if (map.minimum != nullptr && !is_factor) low = least;
         const float range = high > low ? high - low : 1;
         for (std::size_t i = 0; i < texels; ++i) {

@@ -26,6 +26,9 @@ class TextureMaps {
     /// Adds maps to a material of glTF's own model, which has the means of the pictures in `values`.
     /// Parameters for which glTF has no map keep their mean, which is reported.
     void add(const ExportedObject& object, std::span<const ParamValue> values, Json& material);
+    /// Adds what an object emits, and its occlusion, to a material of any model.
+    void add_emission(const ExportedObject& object, Json& material);
+    void add_occlusion(const ExportedObject& object, Json& material);
 
     /// Adds the object's normal map to a material, if it has one; a bump map is left out, which is reported.
     void add_normals(const ExportedObject& object, Json& material);
@@ -50,6 +53,7 @@ class TextureMaps {
     };
 
     void add(const ExportedObject& object, const Map& map, std::vector<Source> sources, Json& material);
+    Json info_of(const Picture& picture, const ExportedTexturedNumber& placed);
     /// Sources that glTF reads from the file of their one picture; nothing if it cannot.
     std::optional<Picture> file_of(const Map& map, const std::vector<Source>& sources);
     Picture baked(const Map& map, const std::vector<Source>& sources);

@@ -207,3 +207,53 @@ TEST_CASE("target/gltf: parameters for which glTF has no map are refused by name
     std::filesystem::remove(folder / "scene.glb");
     refused(scene("kd = { texture = \"p.ppm\" }", "lambert"), "kd");
 }
+
+TEST_CASE("target/gltf: emission has a strength where it exceeds 1, with any reflection model") {
+    const Folder folder;
+    for (const char* const reflection : {"metallic-roughness", "phong"}) {
+        const Glb weak =
+            generated(folder, scene("emission = [255, 128, 0]\nemission_strength = 0.5", reflection),
+                      {"--approximate"});
+        CHECK(is_near(weak.material()["emissiveFactor"][0], 0.5));
+        CHECK(is_near(weak.material()["emissiveFactor"][1], 0.5 * 0.21586050));
+        CHECK(weak.material()["emissiveFactor"][2] == 0);
+        CHECK_FALSE(holds(weak.json.dump(), "emissive_strength"));
+        const Glb strong = generated(
+            folder, scene("emission = [255, 128, 0]\nemission_strength = 40", reflection), {"--approximate"});
+        CHECK(is_near(strong.material()["emissiveFactor"][0], 1));
+        CHECK(is_near(strong.material()["emissiveFactor"][1], 0.21586050));
+        const Json& extension = strong.material()["extensions"]["KHR_materials_emissive_strength"];
+        CHECK(extension["emissiveStrength"] == 40);
+        CHECK(holds(strong.json["extensionsUsed"].dump(), "KHR_materials_emissive_strength"));
+    }
+    CHECK_FALSE(generated(folder, scene("metallic = 0")).material().contains("emissiveFactor"));
+}
+
+TEST_CASE("target/gltf: pictures of emission and occlusion are embedded as they are, or made") {
+    const Folder folder = folder_with_picture();
+    const Glb glb = generated(folder, scene(R"(emission = { texture = "picture.png", scale = [1, 0.5, 0.25] }
+emission_strength = 2
+occlusion = { texture = "picture.png", scale = 0.75, offset = 0.25 })"));
+    CHECK(glb.json["images"].size() == 1);
+    CHECK(glb.file(glb.material()["emissiveTexture"]) == folder.read("picture.png"));
+    CHECK(glb.material()["emissiveFactor"] == Json{1, 0.5, 0.25});
+    CHECK(glb.material()["occlusionTexture"]["strength"] == 0.75);
+    SECTION("with the values that glTF has no factors for") {
+        folder.write("row.ppm", row({0, 51, 255, 255, 102, 0}));
+        const Glb made =
+            generated(folder, scene(R"(emission = { texture = "row.ppm", offset = [0.5, 0, 0], scale = 0.5 }
+occlusion = { texture = "row.ppm", channel = "g", scale = -1, offset = 1 })"));
+        // Of 0 and 255 in red: 0.5 and 1.
+        const auto emission = pixels_of(made.file(made.material()["emissiveTexture"]));
+        CHECK(emission[0] == 188);
+        CHECK(emission[3] == 255);
+        CHECK(is_near(made.material()["emissiveFactor"][0], 1));
+        const auto occlusion = pixels_of(made.file(made.material()["occlusionTexture"]));
+        CHECK(occlusion[0] == 204);
+        CHECK(occlusion[3] == 153);
+        CHECK_FALSE(made.material()["occlusionTexture"].contains("strength"));
+    }
+    folder.write("scene.toml", scene("occlusion = 0.5"));
+    expect(folder.run("generate scene.toml --target gltf -o out"), 1,
+           {"the occlusion of object ball, which has no texture, is left out"});
+}
