@@ -82,6 +82,7 @@ MATERIALS = {
     "lambert": "kd = 0.7",
     "metallic-roughness": "roughness = 0.6\nclearcoat = 1\nclearcoat_roughness = 0.1\nsheen_color = 0.3\nsheen_roughness = 0.5",
     "minnaert": "kd = 0.7\nk = 0.6",
+    "openpbr": "base_color = 0.8\nspecular_roughness = 0.5\ncoat_weight = 1\ncoat_roughness = 0.1\nfuzz_weight = 0.5",
     "oren-nayar": "kd = 0.7\nsigma = 40",
     "phong": "kd = 0.6\nks = 0.4\nshininess = 20",
     "specular-glossiness": "specular_color = [0.5, 0.35, 0.2]\nglossiness = 0.6",

@@ -102,15 +102,25 @@ std::optional<Principled> principled_of(const ExportedModel& model, const Export
         return Principled{
             .metallic = real("metallic", 0), .alpha = alpha, .reflectance = 0.08f * real("specular", 0.5f)};
     }
-    if (id != "reflection/metallic-roughness") return std::nullopt;
-    const float ior = real("ior", 1.5f), strength = real("anisotropy_strength", 0);
+    const bool is_openpbr = id == "reflection/openpbr";
+    if (!is_openpbr && id != "reflection/metallic-roughness") return std::nullopt;
+    const float ior = real(is_openpbr ? "specular_ior" : "ior", 1.5f);
     const float facets = (ior - 1) / (ior + 1) * ((ior - 1) / (ior + 1));
     const Vec3 color = rgb_value(model, values, "specular_color").value_or(Vec3{1, 1, 1});
+    const float tint = (color.x + color.y + color.z) / 3;
+    if (is_openpbr) {
+        const float rough = real("specular_roughness", 0.3f), weight = real("specular_weight", 1);
+        return Principled{.base = real("base_weight", 1) *
+                                  rgb_value(model, values, "base_color").value_or(Vec3{0.8f, 0.8f, 0.8f}),
+                          .metallic = real("base_metalness", 0),
+                          .alpha = std::clamp(rough * rough, 1e-3f, 1.0f),
+                          .reflectance = std::min(weight * facets, 1.0f) * tint};
+    }
+    const float strength = real("anisotropy_strength", 0);
     const float along = alpha + (1 - alpha) * strength * strength;
-    return Principled{
-        .metallic = real("metallic", 0),
-        .alpha = std::sqrt(alpha * along),
-        .reflectance = real("specular", 1) * std::min(facets * (color.x + color.y + color.z) / 3, 1.0f)};
+    return Principled{.metallic = real("metallic", 0),
+                      .alpha = std::sqrt(alpha * along),
+                      .reflectance = real("specular", 1) * std::min(facets * tint, 1.0f)};
 }
 
 void approximate_shading(const ExportedShading& shading, FileSink& files) {

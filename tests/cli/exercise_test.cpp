@@ -359,7 +359,7 @@ TEST_CASE("exercise: every model whose kernel reads no table has exercises") {
     const Folder folder;
     for (const char* const model :
          {"lambert", "half-lambert", "oren-nayar", "eon", "minnaert", "phong", "blinn-phong", "cook-torrance",
-          "beckmann", "ggx", "disney", "metallic-roughness", "specular-glossiness", "ward",
+          "beckmann", "ggx", "disney", "metallic-roughness", "specular-glossiness", "openpbr", "ward",
           "ashikhmin-shirley", "kajiya-kay", "toon", "gooch"}) {
         const CommandResult result = folder.run_words({"exercise", "new", model, "--blank", "reflect"});
         INFO(model << ": " << result.err);

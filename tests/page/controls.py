@@ -12,6 +12,13 @@ NEEDS = {
     "metallic-roughness.anisotropy_rotation": {"anisotropy_strength": 0.8},
     "metallic-roughness.iridescence_ior": {"iridescence": 1},
     "metallic-roughness.iridescence_thickness": {"iridescence": 1},
+    "openpbr.coat_color": {"coat_weight": 1},
+    "openpbr.coat_roughness": {"coat_weight": 1},
+    "openpbr.coat_roughness_anisotropy": {"coat_weight": 1, "coat_roughness": 0.5},
+    "openpbr.coat_ior": {"coat_weight": 1},
+    "openpbr.coat_darkening": {"coat_weight": 1},
+    "openpbr.fuzz_color": {"fuzz_weight": 1},
+    "openpbr.fuzz_roughness": {"fuzz_weight": 1},
 }
 
 # Sheen and masking show where light grazes the surface.

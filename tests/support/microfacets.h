@@ -55,3 +55,25 @@ inline double exact_fresnel(double cosine, double ior) {
     const double p = std::tan(angle - refracted) / std::tan(angle + refracted);
     return (s * s + p * p) / 2;
 }
+
+/// The directions of a point, in polar coordinates around N, with azimuths from T.
+struct Polar {
+    double theta, phi;
+};
+inline Polar polar(Double3 n, Double3 t, Double3 d) {
+    return {std::atan2(length(cross(n, d)), dot(n, d)), std::atan2(dot(d, cross(n, t)), dot(d, t))};
+}
+
+/// GGX with Smith's functions by slopes (Heitz 2014, eqs. 85 and 86, for different roughness along and across
+/// T), over 4 N.L N.V.
+inline double ggx(double alpha_t, double alpha_b, Polar h, Polar v, Polar l) {
+    const auto squared = [](double x) { return x * x; };
+    const double slope = squared(std::cos(h.phi) / alpha_t) + squared(std::sin(h.phi) / alpha_b);
+    const double d = 1 / (std::numbers::pi * alpha_t * alpha_b * std::pow(std::cos(h.theta), 4) *
+                          squared(1 + squared(std::tan(h.theta)) * slope));
+    const auto lambda = [&](Polar p) {
+        const double alpha2 = squared(alpha_t * std::cos(p.phi)) + squared(alpha_b * std::sin(p.phi));
+        return (std::sqrt(1 + alpha2 * squared(std::tan(p.theta))) - 1) / 2;
+    };
+    return d / ((1 + lambda(v) + lambda(l)) * 4 * std::cos(v.theta) * std::cos(l.theta));
+}

@@ -299,10 +299,10 @@ TEST_CASE("target/gltf: a plastic of ggx, as candela import made them, is metall
 
 TEST_CASE("target/gltf: a principled material becomes metallic-roughness of the same colour and numbers") {
     const Folder folder = folder_with_leaf();
-    const auto material = [&](const std::string& values) {
+    const auto material = [&](const std::string& values, const std::string& model = "disney") {
         const std::string scene =
             std::string(k_scene).replace(k_scene.find("material ="), std::string::npos,
-                                         "reflection = \"disney\"\nmaterial = { " + values + " }\n");
+                                         "reflection = \"" + model + "\"\nmaterial = { " + values + " }\n");
         return generated(folder, scene, {"--approximate"}).json["materials"][0];
     };
     const Json metal = material("metallic = 1, roughness = 0.3");
@@ -315,6 +315,12 @@ TEST_CASE("target/gltf: a principled material becomes metallic-roughness of the 
     CHECK(is_near(plastic["pbrMetallicRoughness"]["metallicFactor"], 0));
     CHECK(is_near(plastic["pbrMetallicRoughness"]["baseColorFactor"][1], linear(100) / 0.92));
     CHECK(is_near(plastic["extensions"]["KHR_materials_specular"]["specularColorFactor"][0], 2));
+    const Json pbr =
+        material("base_color = 0.5, base_weight = 0.5, base_metalness = 0.2, specular_roughness = 0.4",
+                 "openpbr")["pbrMetallicRoughness"];
+    CHECK(is_near(pbr["metallicFactor"], 0.2));
+    CHECK(is_near(pbr["roughnessFactor"], 0.4));
+    CHECK(is_near(pbr["baseColorFactor"][1], linear(100) / 4));
 }
 
 TEST_CASE("target/gltf: a metallic-roughness material is glTF's own, with the extensions that it needs") {

@@ -57,11 +57,14 @@ Surface surface_of(const ExportedReflection& model, const ExportedValues& values
     const std::string_view id = model.id;
     if (const auto principled = target::principled_of(model, values)) {
         files.approximate(fmt::format("{} becomes metallic-roughness", id).c_str());
-        const float mirrored = (1 - principled->metallic) * principled->reflectance;
-        return {.base = at_most_one((1 / (1 - mirrored)) * color),
-                .metallic = principled->metallic,
-                .roughness = std::sqrt(principled->alpha),
-                .mirrored = principled->reflectance * Vec3{1, 1, 1}};
+        // Burley's base does not lack what is mirrored, unlike glTF's.
+        const bool is_dimmed = id != "reflection/disney";
+        const float mirrored = is_dimmed ? 0 : (1 - principled->metallic) * principled->reflectance;
+        return {
+            .base = at_most_one((1 / std::max(1 - mirrored, 1e-3f)) * target::times(principled->base, color)),
+            .metallic = principled->metallic,
+            .roughness = std::sqrt(principled->alpha),
+            .mirrored = principled->reflectance * Vec3{1, 1, 1}};
     }
     const Vec3 diffuse = target::rgb_value(model, values, "kd").value_or(Vec3{1, 1, 1});
     const auto highlight = target::highlight_of(model, values);

@@ -51,11 +51,11 @@ void approximate(const ExportedReflection& model, const ExportedValues& values, 
     auto highlight = target::highlight_of(model, values);
     if (const auto principled = target::principled_of(model, values)) {
         const float dielectric = 1 - principled->metallic;
-        finish.diffuse = dielectric * Vec3{1, 1, 1};
-        highlight = {
-            .specular = dielectric * principled->reflectance * Vec3{1, 1, 1} + principled->metallic * color,
-            .alpha = principled->alpha,
-            .facets = 1};
+        finish.diffuse = dielectric * principled->base;
+        highlight = {.specular = dielectric * principled->reflectance * Vec3{1, 1, 1} +
+                                 principled->metallic * target::times(principled->base, color),
+                     .alpha = principled->alpha,
+                     .facets = 1};
     }
     if (std::string_view(model.id) == "reflection/specular-glossiness") {
         const Vec3 mirrored = highlight->specular;

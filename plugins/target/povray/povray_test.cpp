@@ -430,6 +430,8 @@ reflection = ")" + model + "\"\nmaterial = {" +
                 "diffuse 0.75 specular 1 roughness 0.03333"));
     CHECK(holds(finish("specular = 0.5", "metallic-roughness"),
                 "diffuse 1 specular 0.080000006 roughness 0.03333"));
+    CHECK(holds(finish("base_color = 0.5, base_metalness = 1, specular_roughness = 0.5", "openpbr"),
+                "diffuse 0 specular 2 roughness 0.03333"));
 }
 
 TEST_CASE(

@@ -39,9 +39,10 @@ struct Highlight {
 };
 std::optional<Highlight> highlight_of(const ExportedModel& model, const ExportedValues& values);
 
-/// The parts of reflection/disney and reflection/metallic-roughness that renderers have: a mixture of a
-/// dielectric and a metal of the object's colour. Nothing for other models.
+/// The parts of reflection/disney, metallic-roughness and openpbr that renderers have: a mixture of a
+/// dielectric and a metal. Nothing for other models.
 struct Principled {
+    Vec3 base{1, 1, 1};     // a factor of the object's colour
     float metallic = 0;     // share of the metal
     float alpha = 1;        // roughness of facets, as in Highlight
     float reflectance = 0;  // of the dielectric's facets, at normal incidence
