@@ -269,7 +269,7 @@ struct TargetAbilities {
     bool emission = false;               // ExportedObject::emission, and its texture
     bool occlusion = false;              // ExportedObject::occlusion, and its texture
     bool shadows = false;                // ExportedScene::has_shadows
-    bool display = false;                // ExportedImage::exposure and ::tone
+    bool display = false;                // exposure and tone of ExportedImage
 };
 
 /// Turns a scene into something else: a program, a page, a file. Any thread.
