@@ -26,7 +26,7 @@ def copy_documents(sources):
     for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE"):
         shutil.copy(ROOT / name, sources / name)
     shutil.copytree(ROOT / "docs", sources / "docs", ignore=shutil.ignore_patterns("site", "__pycache__"))
-    for kernel in ROOT.glob("plugins/*/*.kernel"):
+    for kernel in (ROOT / "plugins").rglob("*.kernel"):
         copy = sources / kernel.relative_to(ROOT)
         copy.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(kernel, copy)
