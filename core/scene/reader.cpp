@@ -368,7 +368,8 @@ std::vector<std::filesystem::path> input_files(const SceneDraft& draft) {
     for (const LightSource& light : scene.lights) add_files(light.model, files);
     for (const Object& object : scene.objects) {
         if (!object.color_texture.empty()) files.emplace_back(object.color_texture);
-        for (const ParameterTexture& texture : object.textures) files.emplace_back(texture.file);
+        for (const auto* const textures : {&object.textures, &object.common.textures})
+            for (const ParameterTexture& texture : *textures) files.emplace_back(texture.file);
         if (object.normal_map) files.emplace_back(object.normal_map->file);
         for (const Model* const model : {&object.shape, &object.shading, &object.reflection})
             add_files(*model, files);

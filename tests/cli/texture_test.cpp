@@ -181,6 +181,20 @@ TEST_CASE("mistakes in a normal map or a bump map are reported at their place") 
             "remove normal_map"});
 }
 
+TEST_CASE("a picture does not replace a texture of the scene that it shows") {
+    for (const char* const key :
+         {"normal_map = { texture = \"wood.ppm\" }", "bump_map = { texture = \"wood.ppm\", height = 1 }",
+          "[object.material]\nks = { texture = \"wood.ppm\" }",
+          "[object.material]\nemission = { texture = \"wood.ppm\" }",
+          "[object.material]\nocclusion = { texture = \"wood.ppm\" }"}) {
+        const Folder d({{"wood.ppm", k_image}});
+        expect(render(key, d), 0, {});
+        expect(d.run("render scene.toml -o wood.ppm"), 2,
+               {"wood.ppm", "the files that the scene is made from"});
+        CHECK(d.read("wood.ppm") == k_image);
+    }
+}
+
 TEST_CASE("a normal map without effect draws a warning, and a target without bump maps refuses it") {
     const Folder d({{"n.ppm", k_image}});
     const std::string map = "bump_map = { texture = \"n.ppm\", height = 0.1 }";
