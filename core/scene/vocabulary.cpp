@@ -31,7 +31,8 @@ constexpr std::string_view k_observer_table = "the camera is the table [observer
 constexpr std::string_view k_materials = "a material is the table [object.material], below its [[object]]";
 constexpr std::string_view k_size = "write width and height";
 constexpr std::string_view k_name_of_image = "-o gives the picture's name and format";
-constexpr std::string_view k_no_bumps = "textures are for colours and for parameters of materials";
+constexpr std::string_view k_of_object =
+    "it belongs in [[object]], such as normal_map = { texture = \"n.png\" }";
 constexpr std::string_view k_parameter_texture =
     "write a table in [object.material], such as roughness = { texture = \"r.png\" }";
 constexpr std::string_view k_shape_size = "an object's size is its 'scale'";
@@ -207,10 +208,10 @@ constexpr auto k_words = std::to_array<Word>({
     {"object", "diffuse_texture", "color_texture"},
     {"object", "base_color_texture", "color_texture"},
     {"object", "texture_wrap", "color_texture_wrap"},
-    {"object", "bump", k_no_bumps},
-    {"object", "bump_map", k_no_bumps},
-    {"object", "normal_map", k_no_bumps},
-    {"object", "normal_texture", k_no_bumps},
+    {"object", "bump", "bump_map"},
+    {"object", "bump_texture", "bump_map"},
+    {"object", "normal", "normal_map"},
+    {"object", "normal_texture", "normal_map"},
     {"object", "metallic_texture", k_parameter_texture},
     {"object", "roughness_texture", k_parameter_texture},
     {"object", "specular_texture", k_parameter_texture},
@@ -248,9 +249,10 @@ constexpr auto k_words = std::to_array<Word>({
     {"material", "metallic_texture", k_parameter_texture},
     {"material", "roughness_texture", k_parameter_texture},
     {"material", "specular_texture", k_parameter_texture},
-    {"material", "bump", k_no_bumps},
-    {"material", "normal_map", k_no_bumps},
-    {"material", "normal_texture", k_no_bumps},
+    {"material", "bump", k_of_object},
+    {"material", "bump_map", k_of_object},
+    {"material", "normal_map", k_of_object},
+    {"material", "normal_texture", k_of_object},
     {"material", "emissive", "emission"},
     {"material", "emissive_factor", "emission"},
     {"material", "emissive_color", "emission"},
