@@ -66,7 +66,7 @@ class Builder {
             for (mesh_io::Array<float>* const numbers : {&all->x, &all->y, &all->z})
                 std::ranges::fill(*numbers, 0.0f);
         }
-        has_frame_.resize(vertices_);
+        last_.resize(vertices_);
         for (std::size_t i = 0; i + 1 < begin_.size(); ++i) treat(here(i));
         return std::move(result_);
     }
@@ -172,22 +172,31 @@ class Builder {
         while (sound < corners.size() && !frame(sound).is_sound) ++sound;
         for (std::uint32_t i = 0; i < corners.size() && sound < corners.size(); ++i)
             if (!frame(i).is_sound && root(i) == i) parent_[i] = root(sound);
-        for (std::uint32_t r = 0; r < corners.size(); ++r)
-            if (root(r) == r) give_frame(corners, r);
+        members_.clear();
+        for (std::uint32_t i = 0; i < corners.size(); ++i) members_.emplace_back(root(i), corners[i]);
+        std::ranges::sort(members_);
+        for (auto group = members_.begin(); group != members_.end();) {
+            const auto end = std::ranges::find_if(
+                group, members_.end(), [&](const Member& member) { return member.first != group->first; });
+            give_frame({group, end});
+            group = end;
+        }
     }
     std::uint32_t root(std::uint32_t i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
     }
 
-    void give_frame(std::span<const std::uint32_t> corners, std::uint32_t group) {
-        const Vec3 n = normal_[indices_[corners[group]]];
+    /// A corner, behind the root of its group.
+    using Member = std::pair<std::uint32_t, std::uint32_t>;
+
+    void give_frame(std::span<const Member> group) {
+        const Vec3 n = normal_[indices_[group.front().second]];
         Vec3 along_u{}, along_v{};
         float size_u = 0, size_v = 0, sum = 0;
-        for (std::uint32_t i = 0; i < corners.size(); ++i) {
-            const std::size_t corner = corners[i];
+        for (const auto& [root, corner] : group) {
             const Frame& frame = frames_[corner / 3];
-            if (root(i) != group || !frame.is_sound) continue;
+            if (!frame.is_sound) continue;
             const Vec3 p = at_corner(corner);
             const float cosine =
                 dot(in_plane(at_corner(next(corner)) - p, n), in_plane(at_corner(previous(corner)) - p, n));
@@ -199,23 +208,24 @@ class Builder {
             sum += angle;
         }
         const float share = sum > 0 ? 1 / sum : 0;
-        split_.clear();
-        for (std::uint32_t i = 0; i < corners.size(); ++i)
-            if (root(i) == group)
-                set(corners[i], share * size_u * unit(along_u), share * size_v * unit(along_v));
+        ++group_;
+        for (const auto& [root, corner] : group)
+            set(corner, share * size_u * unit(along_u), share * size_v * unit(along_v));
     }
 
     /// Gives a corner's vertex these derivatives, or a copy of the vertex if it has others already.
     void set(std::size_t corner, Vec3 dpdu, Vec3 dpdv) {
         SplitVertices& to = result_.vertices;
         const std::uint32_t vertex = indices_[corner];
-        const auto known = std::ranges::find(split_, vertex, &std::pair<std::uint32_t, std::uint32_t>::first);
-        if (known != split_.end()) {
-            to.indices[corner] = known->second;
+        auto& [group, own] = last_[vertex];
+        if (group == group_) {
+            to.indices[corner] = own;
             return;
         }
-        std::uint32_t own = vertex;
-        if (has_frame_[vertex]) {
+        const bool has_frame = group != 0;
+        group = group_;
+        own = vertex;
+        if (has_frame) {
             if (to.source.empty()) fill_with_numbers(to.source);
             if (to.group.empty()) fill_with_numbers(to.group);
             own = static_cast<std::uint32_t>(to.source.size());
@@ -224,8 +234,6 @@ class Builder {
             result_.dpdu.push_back({});
             result_.dpdv.push_back({});
         }
-        has_frame_[vertex] = true;
-        split_.emplace_back(vertex, own);
         to.indices[corner] = own;
         result_.dpdu.span().set(own, dpdu);
         result_.dpdv.span().set(own, dpdv);
@@ -244,11 +252,12 @@ class Builder {
     std::vector<Frame> frames_;                   // per triangle
     mesh_io::Array<std::uint32_t> welded_;        // per vertex
     std::vector<std::uint32_t> begin_, corners_;  // of welded vertices, and of each its corners
-    std::vector<bool> has_frame_;                 // per vertex
     std::vector<std::uint32_t> parent_;           // of corners, in the forest of groups
     std::vector<std::pair<std::uint32_t, std::uint32_t>> edges_;  // to a welded vertex, of a corner
-    std::vector<std::pair<std::uint32_t, std::uint32_t>>
-        split_;  // of the current group: vertex, and which it is
+    std::vector<Member> members_;                                 // of the groups of a welded vertex
+    std::uint32_t group_ = 0;                                     // the current one, counted from 1
+    /// Per vertex: the last group that it was in, and the vertex, itself or a copy, that it was there.
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> last_;
 };
 
 }  // namespace
