@@ -17,6 +17,7 @@ module;
 module candela.shading;
 
 import :object_environment;
+import :texels;
 import candela.api;
 import candela.plugins;
 import candela.raster;
@@ -76,28 +77,27 @@ struct BumpMapLoop {
     }
 };
 
-/// Row by row from the top; `heights` and the result have four channels.
-MipMap::Texels slopes_of(const MipMap& heights, TextureWrap wrap) {
-    const MipMap::Level& level = heights.levels().front();
+/// Four channels per texel, like `heights`.
+MipMap::Texels slopes_of(const DecodedTexels& heights, TextureWrap wrap) {
     const auto neighbor = [wrap](int x, int size) {
         return wrap == TextureWrap::repeat ? (x + size) % size : std::clamp(x, 0, size - 1);
     };
     const auto height = [&](int x, int y) {
         const auto texel =
-            static_cast<std::size_t>(neighbor(y, level.height)) * static_cast<std::size_t>(level.width) +
-            static_cast<std::size_t>(neighbor(x, level.width));
-        return static_cast<int>(heights.texels()[4 * texel]);
+            static_cast<std::size_t>(neighbor(y, heights.height)) * static_cast<std::size_t>(heights.width) +
+            static_cast<std::size_t>(neighbor(x, heights.width));
+        return static_cast<int>(heights.texels[4 * texel]);
     };
     constexpr int k_none = 32768, k_most = 65535;
     const auto slope = [=](int before, int after) {
         return static_cast<std::uint16_t>(std::clamp(k_none + (after - before) / 2, 0, k_most));
     };
-    MipMap::Texels slopes(4 * static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height));
+    MipMap::Texels slopes(heights.texels.size());
     constexpr std::size_t k_rows = 64;
-    parallel_for(static_cast<std::size_t>(level.height), k_rows, [&](std::size_t begin, std::size_t end) {
-        std::size_t to = 4 * begin * static_cast<std::size_t>(level.width);
+    parallel_for(static_cast<std::size_t>(heights.height), k_rows, [&](std::size_t begin, std::size_t end) {
+        std::size_t to = 4 * begin * static_cast<std::size_t>(heights.width);
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-            for (int x = 0; x < level.width; ++x, to += 4) {
+            for (int x = 0; x < heights.width; ++x, to += 4) {
                 slopes[to] = slope(height(x - 1, y), height(x + 1, y));
                 slopes[to + 1] = slope(height(x, y + 1), height(x, y - 1));
             }
@@ -109,9 +109,8 @@ MipMap::Texels slopes_of(const MipMap& heights, TextureWrap wrap) {
 }  // namespace
 
 TextureImage read_bump_map(const std::filesystem::path& file, Registry& registry, TextureWrap wrap) {
-    const TextureImage heights = read_texture(file, registry, ColorEncoding::none);
-    const MipMap& from = *heights.mip_map;
-    return {std::make_shared<const MipMap>(from.width(), from.height(), slopes_of(from, wrap)),
+    const DecodedTexels heights = read_texels(file, registry, ColorEncoding::none);
+    return {std::make_shared<const MipMap>(heights.width, heights.height, slopes_of(heights, wrap)),
             heights.was_clamped};
 }
 

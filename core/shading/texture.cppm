@@ -99,7 +99,7 @@ struct TexturedNumber {
 /// A picture of normals or slopes that tilts an object's normals.
 struct TexturedNormal {
     std::size_t texture = 0;
-    bool has_slopes = false;  // bump_texture(); otherwise normals: 2 * texel - 1
+    bool has_slopes = false;  // read_bump_map(); otherwise normals: 2 * texel - 1
     /// The first two numbers of a normal, or a slope's, along growing u and v: (m[0] x + m[1] y, m[2] x +
     /// m[3] y). Of slopes, in metres per unit of u and v.
     std::array<float, 4> to_uv{1, 0, 0, 1};

@@ -15,6 +15,7 @@ module;
 
 module candela.shading;
 
+import :texels;
 import candela.api;
 import candela.plugins;
 import candela.util;
@@ -38,7 +39,7 @@ std::uint16_t quantized(float value) { return static_cast<std::uint16_t>(k_one *
 
 }  // namespace
 
-TextureImage read_texture(const std::filesystem::path& file, Registry& registry, ColorEncoding encoding) {
+DecodedTexels read_texels(const std::filesystem::path& file, Registry& registry, ColorEncoding encoding) {
     const std::optional<DecodedImage> image = read_by_plugin(file, registry, encoding);
     if (!image) {
         throw Error(ErrorCategory::failure,
@@ -78,7 +79,13 @@ TextureImage read_texture(const std::filesystem::path& file, Registry& registry,
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' cannot be read as a picture: a pixel is non-finite", file.string()));
     }
-    return {std::make_shared<const MipMap>(image->width, image->height, std::move(texels)), was_clamped};
+    return {image->width, image->height, std::move(texels), was_clamped};
+}
+
+TextureImage read_texture(const std::filesystem::path& file, Registry& registry, ColorEncoding encoding) {
+    DecodedTexels read = read_texels(file, registry, encoding);
+    return {std::make_shared<const MipMap>(read.width, read.height, std::move(read.texels)),
+            read.was_clamped};
 }
 
 }  // namespace candela
