@@ -229,7 +229,7 @@ struct NormalMap {
     }
 };
 
-/// The keys of every material, of which its reflection model knows nothing.
+/// Keys that every material has, whatever its reflection model.
 struct CommonMaterial {
     Vec3 emission{};                           // 0-255; black: the surface emits nothing
     float emission_strength = 1;               // multiplies it

@@ -280,8 +280,7 @@ Table<CommonMaterial> material() {
         {.name = "material",
          .title = "[object.material]",
          .meaning = "keys of every material, next to the parameters of its reflection model; a parameter of "
-                    "the same "
-                    "name takes the place of one"},
+                    "the same name takes the place of one"},
         {field(Type::color, "emission",
                "what the surface emits, added to the light that it reflects; it lights nothing else; a "
                "texture may give it",

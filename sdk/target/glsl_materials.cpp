@@ -38,11 +38,12 @@ std::string text_of(const ExportedScene& scene, const ExportedObject& object, bo
     const auto lookup = [&](const ExportedTexturedNumber& n) { return texel_text(object, n); };
     const auto [texels, assignments, common] = material_statements(
         scene, object, {"    ", "vec3", "own_material", "own_emission", "own_occlusion", has_model}, lookup);
-    std::string start =
-        has_common_textures(scene) ? "    start_material();\n" : "    own_material = material;\n";
-    if (has_common_textures(scene) && has_emission(scene)) start += "    own_emission = object_emission;\n";
-    if (has_common_textures(scene) && has_occlusion(scene))
-        start += "    own_occlusion = object_occlusion;\n";
+    std::string start = "    own_material = material;\n";
+    if (has_common_textures(scene)) {
+        start = "    start_material();\n";
+        if (has_emission(scene)) start += "    own_emission = object_emission;\n";
+        if (has_occlusion(scene)) start += "    own_occlusion = object_occlusion;\n";
+    }
     return k_reads_pictures +
            fmt::format(
                "float number_of(float texel, float scale, float offset, float low, float high) {{\n"

@@ -29,13 +29,6 @@ std::vector<ParamValue> mean_values(const ExportedScene& scene, const ExportedOb
     return values;
 }
 
-void approximate_by_mean(const ExportedScene& scene, const ExportedObject& object, std::size_t parameter,
-                         FileSink& files) {
-    const char* const name = scene.reflections[object.reflection].plugin->parameters[parameter].name;
-    files.approximate(
-        fmt::format("the texture of '{}' of object {} becomes its mean", name, object.label).c_str());
-}
-
 namespace {
 
 /// The colour, as written, that becomes this intensity.
@@ -43,13 +36,19 @@ float written(float intensity, ColorEncoding encoding) {
     return 255 * (encoding == ColorEncoding::srgb ? linear_to_srgb(intensity) : intensity);
 }
 
-/// Reports that the picture of one of the keys that every material has becomes its mean.
+/// Reports that the picture of a key of the material becomes its mean.
 void approximate_by_mean(const ExportedObject& object, const char* key, FileSink& files) {
     files.approximate(
         fmt::format("the texture of '{}' of object {} becomes its mean", key, object.label).c_str());
 }
 
 }  // namespace
+
+void approximate_by_mean(const ExportedScene& scene, const ExportedObject& object, std::size_t parameter,
+                         FileSink& files) {
+    approximate_by_mean(object, scene.reflections[object.reflection].plugin->parameters[parameter].name,
+                        files);
+}
 
 void MeanMaterials::take_common(ExportedObject& object, FileSink& files) const {
     if (!object.emission_numbers.empty()) {

@@ -184,12 +184,12 @@ void MaterialLibraries::become_metallic_roughness(const Description& description
     }
 }
 
-void MaterialLibraries::tilt_normals(const Description& description, Material& to) {
-    const mesh_io::MtlMaterial& from = description.material;
-    const bool is_bump = from.normal_map.file.empty();
-    const mesh_io::MtlMap& map = is_bump ? from.bump_map : from.normal_map;
+void MaterialLibraries::tilt_normals(const Description& from, Material& to) {
+    const mesh_io::MtlMaterial& material = from.material;
+    const bool is_bump = material.normal_map.file.empty();
+    const mesh_io::MtlMap& map = is_bump ? material.bump_map : material.normal_map;
     if (map.file.empty()) return;
-    const auto picture = image(map.file, to.name, description);
+    const auto picture = image(map.file, to.name, from);
     if (!picture) return;
     // Many programs write a normal map as a bump map. On average, it is light blue; heights are grey.
     const auto& mean = picture->means.stored;

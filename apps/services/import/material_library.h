@@ -50,9 +50,9 @@ class MaterialLibraries {
     /// Null if there is none.
     const Description* find(const std::string& name) const;
     static bool is_physical(const mesh_io::MtlMaterial& material);
+    /// Uses a material's normal map, or a bump map that is one.
+    void tilt_normals(const Description& from, Material& to);
     /// Fills in a material that says how rough or metallic it is.
-    /// Uses its normal map, or a bump map that is one.
-    void tilt_normals(const Description& description, Material& to);
     void become_metallic_roughness(const Description& from, Material& to);
     /// Makes offset + scale times a channel of a picture the values of a parameter.
     static void add(const mesh_io::MtlMap& map, const MeasuredImage& picture, const char* parameter,

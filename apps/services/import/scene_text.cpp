@@ -245,7 +245,7 @@ class Writer {
         return fmt::format("[{}, {}]", real(v[0]), real(v[1]));
     }
 
-    /// An inline table of what is not the default.
+    /// An inline table with what differs from the defaults.
     std::string text_of(const ParameterMap& map) const {
         std::string text = fmt::format("{{ texture = {}", candela::toml_text(setting_.images[map.image]));
         const auto add_entry = [&](const char* key, const std::string& value) {

@@ -112,29 +112,26 @@ class Writer {
             }
             if (placed == nullptr) continue;
             if (parameter.type != candela::ParamType::real) value = '[' + value + ']';
-            line(2,
-                 fmt::format("{} = {}  {}", texture.parameter, value, texel_text(texture, *placed, point)));
+            line(2, fmt::format("{} = {}  {}", texture.parameter, value,
+                                texel_text(texture.file, *placed, point)));
         }
     }
 
     void write_normal_map(const PointTrace& point, const candela::NormalMap& map,
                           const candela::PlacedTexture& picture) {
-        const std::array<int, 2> texel = picture.texel_at(point.u, point.v);
         const Vec3 t = point.normal_texel;
         const Vec3 meaning = map.has_heights ? Vec3{t.x - candela::k_level, t.y - candela::k_level, 0}
                                              : 2.0f * t - Vec3{1, 1, 1};
-        value(2, map.has_heights ? "slopes" : "mapped", meaning,
-              fmt::format("texel ({}, {}) of {}", texel[0], texel[1],
-                          std::filesystem::path(map.file).filename().string()));
+        value(2, map.has_heights ? "slopes" : "mapped", meaning, texel_text(map.file, picture, point));
         value(2, "N", point.normal,
               map.has_heights ? "N_shading, tilted by the slopes" : "N_shading, tilted");
     }
 
-    static std::string texel_text(const candela::ParameterTexture& texture,
-                                  const candela::PlacedTexture& placed, const PointTrace& point) {
+    static std::string texel_text(const std::string& file, const candela::PlacedTexture& placed,
+                                  const PointTrace& point) {
         const std::array<int, 2> texel = placed.texel_at(point.u, point.v);
         return fmt::format("texel ({}, {}) of {}", texel[0], texel[1],
-                           std::filesystem::path(texture.file).filename().string());
+                           std::filesystem::path(file).filename().string());
     }
 
     /// The keys of every material, if the object has them.
@@ -145,7 +142,7 @@ class Writer {
             const auto texture =
                 std::ranges::find(object.common.textures, parameter, &candela::ParameterTexture::parameter);
             if (texture == object.common.textures.end()) return std::string();
-            return texel_text(*texture, textures.textures[textures.numbers[first].texture], point);
+            return texel_text(texture->file, textures.textures[textures.numbers[first].texture], point);
         };
         if (surface.is_occluded()) {
             const std::string texel = remark("occlusion", textures.occlusion);

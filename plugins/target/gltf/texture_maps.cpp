@@ -88,6 +88,23 @@ constexpr TextureMaps::Map k_emission_map{nullptr, nullptr, "emissiveTexture", t
 constexpr TextureMaps::Map k_occlusion_map{
     nullptr, nullptr, "occlusionTexture", false, 1, k_occlusion, nullptr, false, false};
 
+/// glTF's transform, whose v points downwards, of one whose v points upwards: (u, v) are scaled, rotated and
+/// moved in both. Nothing for the identity.
+std::optional<Json> transform_json(const float (&placing)[6]) {
+    if (std::ranges::equal(placing, std::array<float, 6>{1, 0, 0, 0, 1, 0})) return std::nullopt;
+    double m[6];
+    std::ranges::copy(placing, m);
+    // Of a scale of zero, the other column has the angle.
+    const double width = std::hypot(m[0], m[3]);
+    const double angle = width > 0 ? std::atan2(m[3], m[0]) : std::atan2(-m[1], m[4]);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const double height = c * m[4] - s * m[1];
+    const auto rounded = [](double x) { return static_cast<float>(std::round(1e7 * x) / 1e7); };
+    return Json{{"offset", {rounded(m[2] - s * height), rounded(1 - c * height - m[5])}},
+                {"rotation", rounded(angle)},
+                {"scale", {rounded(width), rounded(height)}}};
+}
+
 bool is_placed_like(const ExportedTexturedNumber& a, const ExportedTexturedNumber& b) {
     return a.repeats == b.repeats && std::ranges::equal(a.placing, b.placing);
 }
@@ -129,22 +146,6 @@ void set_factor(Json& to, const Channel& channel, std::size_t count, float facto
 }
 
 }  // namespace
-
-std::optional<Json> transform_json(const float (&placing)[6]) {
-    if (std::ranges::equal(placing, std::array<float, 6>{1, 0, 0, 0, 1, 0})) return std::nullopt;
-    // In both, (u, v) are scaled, rotated and moved.
-    double m[6];
-    std::ranges::copy(placing, m);
-    // Of a scale of zero, the other column has the angle.
-    const double width = std::hypot(m[0], m[3]);
-    const double angle = width > 0 ? std::atan2(m[3], m[0]) : std::atan2(-m[1], m[4]);
-    const double c = std::cos(angle), s = std::sin(angle);
-    const double height = c * m[4] - s * m[1];
-    const auto rounded = [](double x) { return static_cast<float>(std::round(1e7 * x) / 1e7); };
-    return Json{{"offset", {rounded(m[2] - s * height), rounded(1 - c * height - m[5])}},
-                {"rotation", rounded(angle)},
-                {"scale", {rounded(width), rounded(height)}}};
-}
 
 float TextureMaps::Source::value(float texel) const {
     const float x =
@@ -204,12 +205,12 @@ void TextureMaps::add(const ExportedObject& object, const Map& map, std::vector<
         set_factor(to, *sources[i].channel, sources.size() == 3 ? 3 : 1, picture->highest[i]);
         if (map.minimum != nullptr) to[map.minimum] = picture->lowest[i];
     }
-    to[map.name] = info_of(*picture, *first->number);
+    to[map.name] = info_of(picture->image, first->number->repeats, first->number->placing);
 }
 
-Json TextureMaps::info_of(const Picture& picture, const ExportedTexturedNumber& placed) {
-    Json info = {{"index", pictures_.texture_of(picture.image, placed.repeats)}};
-    if (auto transform = transform_json(placed.placing)) {
+Json TextureMaps::info_of(std::size_t image, bool repeats, const float (&placing)[6]) {
+    Json info = {{"index", pictures_.texture_of(image, repeats)}};
+    if (auto transform = transform_json(placing)) {
         info["extensions"]["KHR_texture_transform"] = std::move(*transform);
         document_.use_extension("KHR_texture_transform");
     }
@@ -227,7 +228,8 @@ void TextureMaps::add_emission(const ExportedObject& object, Json& material) {
         auto picture = file_of(k_emission_map, sources);
         if (!picture) picture = baked(k_emission_map, sources);
         for (std::size_t c = 0; c < 3; ++c) factor[c] *= picture->highest[c];
-        material["emissiveTexture"] = info_of(*picture, object.emission_numbers.front());
+        const ExportedTexturedNumber& placed = object.emission_numbers.front();
+        material["emissiveTexture"] = info_of(picture->image, placed.repeats, placed.placing);
     }
     const float strength = std::max(*std::ranges::max_element(factor), 1.0f);
     material["emissiveFactor"] = {factor[0] / strength, factor[1] / strength, factor[2] / strength};
@@ -250,9 +252,8 @@ void TextureMaps::add_occlusion(const ExportedObject& object, Json& material) {
     const bool is_strength = number.texel_channel == 0 && number.scale > 0 && number.scale <= 1 &&
                              std::abs(number.offset + number.scale - 1) < k_rounding;
     const auto file = is_strength ? pictures_.file_of(number.texture, false) : std::nullopt;
-    const Picture picture =
-        file ? Picture{.image = *file, .lowest = {}, .highest = {}} : baked(k_occlusion_map, sources);
-    material["occlusionTexture"] = info_of(picture, number);
+    const std::size_t image = file ? *file : baked(k_occlusion_map, sources).image;
+    material["occlusionTexture"] = info_of(image, number.repeats, number.placing);
     if (file && number.scale != 1) material["occlusionTexture"]["strength"] = number.scale;
 }
 
@@ -272,13 +273,8 @@ void TextureMaps::add_normals(const ExportedObject& object, Json& material) {
             if (i % 4 != 3) bytes.push_back(static_cast<std::uint8_t>((level.texels[i] + 128) / 257));
         image = pictures_.add(png_of(level.width, level.height, 3, bytes), "image/png");
     }
-    Json& info = material["normalTexture"];
-    info["index"] = pictures_.texture_of(*image, map.repeats);
-    if (map.scale != 1) info["scale"] = map.scale;
-    if (auto transform = transform_json(map.placing)) {
-        info["extensions"]["KHR_texture_transform"] = std::move(*transform);
-        document_.use_extension("KHR_texture_transform");
-    }
+    material["normalTexture"] = info_of(*image, map.repeats, map.placing);
+    if (map.scale != 1) material["normalTexture"]["scale"] = map.scale;
 }
 
 std::optional<TextureMaps::Picture> TextureMaps::file_of(const Map& map, const std::vector<Source>& sources) {

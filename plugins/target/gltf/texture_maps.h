@@ -14,10 +14,6 @@
 
 namespace candela::gltf_target {
 
-/// glTF's transform of a placing, whose v points upwards, while glTF's points downwards. Nothing for the
-/// identity.
-std::optional<Json> transform_json(const float (&placing)[6]);
-
 class TextureMaps {
   public:
     TextureMaps(const ExportedScene& scene, Document& document, Pictures& pictures, FileSink& files)
@@ -53,7 +49,7 @@ class TextureMaps {
     };
 
     void add(const ExportedObject& object, const Map& map, std::vector<Source> sources, Json& material);
-    Json info_of(const Picture& picture, const ExportedTexturedNumber& placed);
+    Json info_of(std::size_t image, bool repeats, const float (&placing)[6]);
     /// Sources that glTF reads from the file of their one picture; nothing if it cannot.
     std::optional<Picture> file_of(const Map& map, const std::vector<Source>& sources);
     Picture baked(const Map& map, const std::vector<Source>& sources);
