@@ -43,10 +43,6 @@ Double3 at(double degrees, double phi_degrees = 0) {
     return {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
 }
 
-Vec3 rounded(Double3 d) {
-    return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
-}
-
 /// The reflected light of a white surface facing +y.
 double seen(const ReflectionModel& model, Double3 v, Double3 l) {
     return static_cast<double>(

@@ -147,26 +147,6 @@ ExactPair exact_of(const Surface& m, Double3 n, Double3 v, Double3 l, Double3 co
 
 double no_albedo(double) { return 0; }
 
-Vec3 rounded(Double3 d) {
-    return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
-}
-
-/// A point whose light is often near the mirror direction, as far from it as facets of that roughness send
-/// it.
-ReflectionSample random_sample(Random& random, double alpha) {
-    for (;;) {
-        const Double3 n = exact(random.direction()), v = exact(random.direction());
-        Double3 l = exact(random.direction());
-        if (random.number(0, 1) < 0.5) {
-            const Double3 h = unit(unit(n) + random.number(0, 2) * alpha * l);
-            l = 2 * dot(v, h) * h - v;
-        }
-        // Within a degree of the horizon, the last bits of directions decide.
-        if (dot(unit(n), v) > 0.02 && dot(unit(n), unit(l)) > 0.02)
-            return {rounded(unit(n)), rounded(v), rounded(unit(l)), {1, 1, 1}, {1, 1, 1}};
-    }
-}
-
 /// Compares 10^5 random points, of 500 surfaces, within 1e-5; and where facets are less rough than 0.05, or
 /// fibres than 0.02, within as much more as turning H by its last bits changes the light.
 void check_random_points(unsigned seed, const std::function<Surface(Random&)>& surface_of,

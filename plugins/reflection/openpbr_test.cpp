@@ -28,10 +28,6 @@ Double3 at(double degrees, double phi = 0) {
     return {std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi)};
 }
 
-Vec3 rounded(Double3 d) {
-    return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
-}
-
 /// The light that a surface facing +y reflects.
 ReflectedPair seen(const ReflectionModel& model, Double3 v, Double3 l, candela::Rgb color = {1, 1, 1}) {
     return reflect(model, {{{0, 1, 0}, rounded(v), rounded(l), {1, 1, 1}, {1, 1, 1}}}, color)[0];

@@ -9,30 +9,11 @@
 #include <vector>
 
 #include "golden/image.h"
+#include "golden/textured_square.h"
 #include "support/command.h"
 #include "support/expect.h"
 
 namespace {
-
-/// A square of two metres in the plane z = 0 that faces the observer, covered once by the picture.
-constexpr const char* k_square =
-    "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
-    "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n";
-
-constexpr int k_size = 8;
-
-/// Red grows to the right, green downwards, blue is constant: 4, 12 and 100 of 255 per texel.
-std::string picture() {
-    std::string text = fmt::format("P6\n{0} {0}\n255\n", k_size);
-    for (int y = 0; y < k_size; ++y) {
-        for (int x = 0; x < k_size; ++x)
-            for (const int value : {4 * x, 12 * y, 100}) text += static_cast<char>(value);
-    }
-    return text;
-}
-double red(int x) { return 4.0 * x / 255; }
-double green(int y) { return 12.0 * y / 255; }
-constexpr double k_blue = 100.0 / 255;
 
 /// The square, white, fills the picture, and light comes from the observer: N = L = V. A texel is a pixel.
 std::string scene(const std::string& reflection, const std::string& material, const char* encoding,
@@ -97,11 +78,7 @@ TEST_CASE("golden: a coefficient takes three channels of its texture, or one") {
 }
 
 TEST_CASE("golden: three channels are decoded like colours, and one is linear, unless told otherwise") {
-    // IEC 61966-2-1.
-    const auto decoded = [](double c) {
-        return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
-    };
-    require_pixels(rendered("lambert", "ka = 0\nkd = { texture = \"p.ppm\" }", "srgb"), [&](int x, int y) {
+    require_pixels(rendered("lambert", "ka = 0\nkd = { texture = \"p.ppm\" }", "srgb"), [](int x, int y) {
         return std::array{decoded(red(x)), decoded(green(y)), decoded(k_blue)};
     });
     require_pixels(rendered("lambert", "ka = 0\nkd = { texture = \"p.ppm\", channel = \"b\" }", "srgb"),
@@ -111,7 +88,7 @@ TEST_CASE("golden: three channels are decoded like colours, and one is linear, u
     require_pixels(
         rendered("lambert", "ka = 0\nkd = { texture = \"p.ppm\", channel = \"b\", encoding = \"srgb\" }",
                  "none"),
-        [&](int, int) { return grey(decoded(k_blue)); });
+        [](int, int) { return grey(decoded(k_blue)); });
 }
 
 TEST_CASE("golden: a number takes its value from a texture, also where the model prepares constants of it") {

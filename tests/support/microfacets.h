@@ -30,9 +30,7 @@ inline double directional_albedo(const candela::ReflectionModel& model, candela:
     std::vector<ReflectionSample> samples;
     over_hemisphere(
         [&](Double3 l) {
-            const candela::Vec3 to_light{static_cast<float>(l.x), static_cast<float>(l.y),
-                                         static_cast<float>(l.z)};
-            samples.push_back({{0, 1, 0}, to_observer, to_light, {1, 1, 1}, {1, 1, 1}});
+            samples.push_back({{0, 1, 0}, to_observer, rounded(l), {1, 1, 1}, {1, 1, 1}});
             return 0.0;
         },
         k_steps);
@@ -76,4 +74,20 @@ inline double ggx(double alpha_t, double alpha_b, Polar h, Polar v, Polar l) {
         return (std::sqrt(1 + alpha2 * squared(std::tan(p.theta))) - 1) / 2;
     };
     return d / ((1 + lambda(v) + lambda(l)) * 4 * std::cos(v.theta) * std::cos(l.theta));
+}
+
+/// A point whose light is often near the mirror direction, as far from it as facets of that roughness send
+/// it.
+inline ReflectionSample random_sample(Random& random, double alpha) {
+    for (;;) {
+        const Double3 n = exact(random.direction()), v = exact(random.direction());
+        Double3 l = exact(random.direction());
+        if (random.number(0, 1) < 0.5) {
+            const Double3 h = unit(unit(n) + random.number(0, 2) * alpha * l);
+            l = 2 * dot(v, h) * h - v;
+        }
+        // Within a degree of the horizon, the last bits of directions decide.
+        if (dot(unit(n), v) > 0.02 && dot(unit(n), unit(l)) > 0.02)
+            return {rounded(unit(n)), rounded(v), rounded(unit(l)), {1, 1, 1}, {1, 1, 1}};
+    }
 }

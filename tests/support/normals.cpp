@@ -20,10 +20,6 @@ Vec3Arrays arrays_of(const std::vector<Vec3>& vectors) {
     return arrays;
 }
 
-Vec3 rounded(Double3 v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 std::array<Double3, 3> corners_of(const Polyhedron& body, std::size_t triangle) {
     const auto at = [&](std::size_t k) { return exact(body.position[body.indices[3 * triangle + k]]); };
     return {at(0), at(1), at(2)};

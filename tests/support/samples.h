@@ -19,6 +19,9 @@ struct Double3 {
     double x = 0, y = 0, z = 0;
 };
 inline Double3 exact(candela::Vec3 v) { return {v.x, v.y, v.z}; }
+inline candela::Vec3 rounded(Double3 d) {
+    return {static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)};
+}
 inline Double3 operator+(Double3 a, Double3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
 inline Double3 operator-(Double3 a, Double3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline Double3 operator*(double s, Double3 a) { return {s * a.x, s * a.y, s * a.z}; }
