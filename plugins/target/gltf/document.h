@@ -14,6 +14,9 @@ namespace candela::gltf_target {
 
 using Json = nlohmann::ordered_json;
 
+/// The extension for the mirrored share of a dielectric.
+inline constexpr const char* k_specular = "KHR_materials_specular";
+
 /// glTF 2.0, section 3.6: what a view of the buffer is for.
 enum class ViewUse : int { image = 0, vertices = 34962, indices = 34963 };
 

@@ -21,7 +21,6 @@ namespace candela::gltf_target {
 
 namespace {
 
-constexpr const char* k_specular = "KHR_materials_specular";
 constexpr float k_dielectric =
     0.04f;  // the reflectance of glTF's materials at normal incidence, for an index of 1.5
 

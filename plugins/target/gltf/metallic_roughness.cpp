@@ -53,7 +53,7 @@ Json specular_glossiness_material(const ExportedReflection& model, const Exporte
     document.use_extension("KHR_materials_ior");
     Extension specular(model, values);
     specular.color("specularColorFactor", "specular_color", 1);
-    specular.add_to(material, "KHR_materials_specular", document);
+    specular.add_to(material, k_specular, document);
     return material;
 }
 
@@ -77,7 +77,7 @@ std::optional<Json> metallic_roughness_material(const ExportedReflection& model,
     ior.add_to(material, "KHR_materials_ior", document);
     specular.number("specularFactor", "specular", 1);
     specular.color("specularColorFactor", "specular_color", 1);
-    specular.add_to(material, "KHR_materials_specular", document);
+    specular.add_to(material, k_specular, document);
     if (real("clearcoat") > 0) {
         Extension coat(model, values);
         coat.number("clearcoatFactor", "clearcoat", 0);

@@ -41,7 +41,7 @@ std::string big_endian(std::size_t number) {
     return bytes;
 }
 
-void append_chunk(std::string& png, std::string_view type, std::string_view content) {
+void append_png_chunk(std::string& png, std::string_view type, std::string_view content) {
     const std::string checked = std::string(type) + std::string(content);
     const auto* const bytes = reinterpret_cast<const Bytef*>(checked.data());
     png += big_endian(content.size()) + checked + big_endian(::crc32_z(0, bytes, checked.size()));
@@ -67,11 +67,11 @@ std::string png_of(int width, int height, int channels, std::span<const std::uin
     const std::string depth_and_kind =
         channels == 4 ? std::string("\x08\x06\0\0\0", 5) : std::string("\x08\x02\0\0\0", 5);
     std::string png = "\x89PNG\r\n\x1a\n";
-    append_chunk(png, "IHDR",
-                 big_endian(static_cast<std::size_t>(width)) + big_endian(static_cast<std::size_t>(height)) +
-                     depth_and_kind);
-    append_chunk(png, "IDAT", compressed);
-    append_chunk(png, "IEND", "");
+    append_png_chunk(png, "IHDR",
+                     big_endian(static_cast<std::size_t>(width)) +
+                         big_endian(static_cast<std::size_t>(height)) + depth_and_kind);
+    append_png_chunk(png, "IDAT", compressed);
+    append_png_chunk(png, "IEND", "");
     return png;
 }
 

@@ -43,9 +43,8 @@ namespace {
 using Channel = TextureMaps::Channel;
 constexpr float k_any = std::numeric_limits<float>::max();
 constexpr const char *k_model = "reflection/metallic-roughness", *k_glossy = "reflection/specular-glossiness",
-                     *k_specular = "KHR_materials_specular", *k_coat = "KHR_materials_clearcoat",
-                     *k_sheen = "KHR_materials_sheen", *k_grain = "KHR_materials_anisotropy",
-                     *k_film = "KHR_materials_iridescence";
+                     *k_coat = "KHR_materials_clearcoat", *k_sheen = "KHR_materials_sheen",
+                     *k_grain = "KHR_materials_anisotropy", *k_film = "KHR_materials_iridescence";
 
 constexpr Channel k_metallic_roughness[] = {{"roughness", 0, 1, "roughnessFactor"},
                                             {"metallic", 0, 2, "metallicFactor"}};
