@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds the fuzzing harnesses and runs them, one after another, each from its committed corpus.
 #   scripts/fuzz.sh                       each for 60 seconds
-#   scripts/fuzz.sh SECONDS [HARNESS…]    scene, setting, manifest, mesh, mesh_file, material, gltf, request, answer, kernel,
-#                                         model
+#   scripts/fuzz.sh SECONDS [HARNESS…]    scene, setting, manifest, mesh, mesh_file, material, gltf, photometry, request, answer,
+#                                         kernel, model
 #   scripts/fuzz.sh --merge [HARNESS…]    adds inputs that reach new code to the corpus, and removes those that no
 #                                         longer adds anything
 # A corpus is tests/robustness/fuzz/corpus/<harness>, inputs with descriptive names, and <harness>.tar.gz, inputs from fuzzing that reach code
@@ -18,7 +18,7 @@ if [ "$seconds" != --merge ] && ! [[ $seconds =~ ^[1-9][0-9]*$ ]]; then
     sed -n '2,10s/^# \{0,1\}//p' "$0" >&2
     exit 2
 fi
-[ $# -gt 0 ] || set -- scene setting manifest mesh mesh_file material gltf request answer kernel model
+[ $# -gt 0 ] || set -- scene setting manifest mesh mesh_file material gltf photometry request answer kernel model
 
 "$root/scripts/setup.sh"
 cmake --preset fuzz -DCANDELA_TESTS=ON >/dev/null
@@ -48,6 +48,7 @@ for harness in "$@"; do
         manifest) options+=(-max_len=4096 -dict=tests/robustness/fuzz/json.dict) ;;
         mesh) options+=(-max_len=1024) ;;
         mesh_file) options+=(-max_len=4096) ;;
+        photometry) options+=(-max_len=2048 -dict=tests/robustness/fuzz/photometry.dict) ;;
         material) options+=(-max_len=2048 -dict=tests/robustness/fuzz/mtl.dict) ;;
         answer) options+=(-max_len=4096 -dict=tests/robustness/fuzz/kernel.dict) ;;
         kernel | model) options+=(-max_len=2048) ;;

@@ -23,6 +23,7 @@ PICTURES = ROOT / "docs/pictures/models"
 PRELUDE = ROOT / "core/include/candela/kernel/prelude.kernel"
 LANGUAGE_PAGE = ROOT / "docs/plugins/kernel-language.md"
 ENVIRONMENT = ROOT / "docs/examples/terrace.png"
+PHOTOMETRY = ROOT / "docs/examples/downlight.ies"
 KINDS = {"light": "Lights", "reflection": "Reflection models", "shading": "Shading models", "shape": "Shapes", "image": "Picture formats",
          "target": "Targets"}
 # Lines that declare something; the rest is prose (docs/plugins/adding-a-model.md).
@@ -63,6 +64,7 @@ LIGHTS = {
     "environment": f'picture = "{ENVIRONMENT.name}"\nsamples = 256\nintensity = 0.8\nbackground = true',
     "gradient": "zenith_color = [235, 240, 255]\nhorizon_color = [200, 170, 150]\nground_color = [60, 50, 45]\nsamples = 256\nbackground = true",
     "hemisphere": "sky_color = [190, 215, 255]\nground_color = [90, 70, 50]\nintensity = 6",
+    "ies": f'file = "{PHOTOMETRY.name}"\nposition = [0, 2.6, 0]\ndirection = [0, -1, 0]\nrotation = 30\nintensity = 0.06',
     "point": "position = [1.6, 2.2, 2.4]\nintensity = 12",
     "sky": "to_sun = [0.8, 0.5, 0.3]\nturbidity = 3\nsamples = 256\nbackground = true",
     "spot": "position = [1.6, 2.2, 2.4]\ndirection = [-1.6, -2.2, -2.4]\ninner_angle = 8\nouter_angle = 16\nintensity = 14",
@@ -166,7 +168,8 @@ class Model:
                 "shading": PHONG_REFLECTION + LAMP + DIM + COARSE_TEAPOT,
                 "shape": PHONG_SHADING + PHONG_REFLECTION + LAMP + DIM}
         view = {"backdrop": SURROUNDINGS, **SMALL} if self.name in SHOW_SURROUNDINGS else {"backdrop": DARK, **SIZE}
-        part = part.replace(f'"{ENVIRONMENT.name}"', json.dumps(str(ENVIRONMENT)))
+        for file in (ENVIRONMENT, PHOTOMETRY):
+            part = part.replace(f'"{file.name}"', json.dumps(str(file)))
         return VIEW.format(**view) + rest[self.kind] + part
 
     def pictures(self):

@@ -27,6 +27,10 @@ Notation notation_of(const Manifest& manifest, const Parameter& parameter) {
         return std::ranges::any_of(manifest.parameters,
                                    [&](const Parameter& p) { return p.name == name && p.type == type; });
     };
+    // A photometric file has units of its own, which the intensity multiplies.
+    if (std::ranges::any_of(manifest.parameters,
+                            [](const Parameter& p) { return p.type == ParamType::file; }))
+        return Notation::plain;
     if (has("position", ParamType::point))
         return has("inner_angle", ParamType::real) && has("outer_angle", ParamType::real)
                    ? Notation::cone

@@ -52,7 +52,7 @@ say "together they make a picture, and generated programs make the same"
 quiet candela render gallery.toml --plugin-dir build/plugins -o gallery.png
 for name in "${names[@]}"; do
     case $name in
-        qoi | ies | retroreflector) ;;  # in no scene that programs are generated from
+        qoi | eulumdat | retroreflector) ;;  # in no scene that programs are generated from
         *) grep -q "\"$name\"" gallery.toml || fail "$name is not in gallery.toml" ;;
     esac
 done
@@ -71,14 +71,14 @@ done
 
 say "a light with a table made from a file is part of generated programs, which do not read the file"
 mkdir "$scratch/lamp"
-cp ies/downlight.ies "$scratch/lamp"
+cp eulumdat/downlight.ldt "$scratch/lamp"
 for target in cpp opengl webgl; do
-    quiet candela verify --target $target --plugin-dir build/plugins --width 160 --height 80 --set light.lamp.type=ies \
-        --set 'light.lamp.direction=[0,-1,-1]' --set light.lamp.file="$scratch/lamp/downlight.ies"
+    quiet candela verify --target $target --plugin-dir build/plugins --width 160 --height 80 --set light.lamp.type=eulumdat \
+        --set 'light.lamp.direction=[0,-1,-1]' --set light.lamp.file="$scratch/lamp/downlight.ldt"
     grep -q match "$scratch/log" || { cat "$scratch/log" >&2; fail "$target was not verified with a table"; }
 done
-quiet candela generate --target cpp --plugin-dir build/plugins --set light.lamp.type=ies --set 'light.lamp.direction=[0,-1,-1]' \
-    --set light.lamp.file="$scratch/lamp/downlight.ies" -o "$scratch/program"
+quiet candela generate --target cpp --plugin-dir build/plugins --set light.lamp.type=eulumdat --set 'light.lamp.direction=[0,-1,-1]' \
+    --set light.lamp.file="$scratch/lamp/downlight.ldt" -o "$scratch/program"
 ! grep -rq downlight "$scratch/program" || fail "the generated program mentions the file"
 say "the triangle that a shading model reads is explained"
 quiet candela explain --shading pn-normals --plugin-dir build/plugins --pixel 256,300

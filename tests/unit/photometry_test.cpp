@@ -121,6 +121,10 @@ TEST_CASE("a unit that does not suit the light, or is unknown, is refused with t
     CHECK(holds(refusal(k_point + "intensity = \"bright\"\n"), "\"bright\"; expected"));
     CHECK(holds(refusal(k_point + "intensity = \"nan lm\"\n"), "expected"));
     CHECK(holds(refusal(k_point + "intensity = \"-3 lm\"\n"), "outside its range: at least 0"));
+    // A photometric file has candela already.
+    const std::string ies = "type = \"ies\"\nposition = [0, 2, 0]\ndirection = [0, -1, 0]\n";
+    CHECK(holds(refusal(ies + "intensity = \"800 lm\"\n"), "is a string, \"800 lm\"; expected a number"));
+    CHECK(intensity(ies + "intensity = 2\n") == 2);
     CHECK(holds(refusal("type = \"ambient\"\nintensity = \"3 cd\"\n"), "expected a number, at least 0"));
     CHECK(holds(refusal(k_point + "attenuation_offset = \"3 cd\"\n"), "expected a number, at least 0"));
 }

@@ -17,19 +17,19 @@ namespace {
 class Lamp {
   public:
     explicit Lamp(const std::string& text) {
-        std::string name = (std::filesystem::temp_directory_path() / "ies-XXXXXX").string();
+        std::string name = (std::filesystem::temp_directory_path() / "ldt-XXXXXX").string();
         folder_ = ::mkdtemp(name.data());
         std::ofstream(path()) << text;
     }
     Lamp(const Lamp&) = delete;
     Lamp& operator=(const Lamp&) = delete;
     ~Lamp() { std::filesystem::remove_all(folder_); }
-    std::string path() const { return (folder_ / "lamp.ies").string(); }
+    std::string path() const { return (folder_ / "lamp.ldt").string(); }
 
     /// The intensity at a point of the floor from a lamp 2 m above it that points down; 1000 cd count as 1.
     float sent_to(float x, float z) const {
         const auto light = candela::sdk::make<candela::Light>(
-            CANDELA_PLUGIN_DIR, "ies",
+            CANDELA_PLUGIN_DIR, "eulumdat",
             {{"file", path()}, {"position", candela::Vec3{0, 2, 0}}, {"direction", candela::Vec3{0, -1, 0}}});
         const float zero = 0, one = 1;
         float out[9] = {};
@@ -44,10 +44,15 @@ class Lamp {
     std::filesystem::path folder_;
 };
 
-// Two vertical angles, four horizontal ones; multiplier 2 and ballast factor 0.5.
-const std::string k_lamp =
-    "IESNA:LM-63-2002\n[TEST] none\nTILT=NONE\n1 1000 2 3 4 1 2 0 0 0\n0.5 1 40\n"
-    "0 45 90\n0 90 180 270\n1000 500 0\n1000,300,0\n1000 100 0\n1000 300 0\n";
+/// Three angles of 45 degrees and four planes of 90; a factor of 2 and 500 lm make the values candela.
+std::string lamp_of(int symmetry, const std::string& values) {
+    std::string text = "maker\n3\n" + std::to_string(symmetry) + "\n4\n90\n3\n45\n";
+    for (int i = 0; i < 14; ++i) text += "0\n";
+    text += "100\n90\n2\n0\n1\n1\nLED\n500\n3000\n80\n5\n";
+    for (int i = 0; i < 10; ++i) text += "0.5\n";
+    return text + "0\n90\n180\n270\n0\n45\n90\n" + values;
+}
+const std::string k_lamp = lamp_of(0, "1000\n500\n0\n1000\n300\n0\n1000\n100\n0\n1000\n300\n0\n");
 
 }  // namespace
 
@@ -63,8 +68,20 @@ TEST_CASE("at 45 degrees, each side has its own value, divided by the square of 
     CHECK_THAT(lamp.sent_to(-2, 0), WithinRel(0.3f / 8, 1e-4f));
 }
 
-TEST_CASE("a file that is cut off, or not an IES file, is refused") {
-    CHECK_THROWS_WITH(Lamp(k_lamp.substr(0, k_lamp.size() - 20)).sent_to(0, 0),
-                      ContainsSubstring("ends before its last candela"));
-    CHECK_THROWS_WITH(Lamp("hello\n").sent_to(0, 0), ContainsSubstring("TILT=NONE"));
+TEST_CASE("planes that symmetry leaves out are mirror images") {
+    // C 0, 90 and 180; one plane; C 0 and 90.
+    const Lamp half(lamp_of(2, "1000\n500\n0\n1000\n300\n0\n1000\n100\n0\n"));
+    CHECK_THAT(half.sent_to(2, 0), WithinRel(0.3f / 8, 1e-4f));
+    CHECK_THAT(half.sent_to(-2, 0), WithinRel(0.3f / 8, 1e-4f));
+    const Lamp round(lamp_of(1, "1000\n500\n0\n"));
+    CHECK_THAT(round.sent_to(0, -2), WithinRel(0.5f / 8, 1e-4f));
+    const Lamp quarter(lamp_of(4, "1000\n500\n0\n1000\n300\n0\n"));
+    CHECK_THAT(quarter.sent_to(0, -2), WithinRel(0.5f / 8, 1e-4f));
+    CHECK_THAT(quarter.sent_to(-2, 0), WithinRel(0.3f / 8, 1e-4f));
+}
+
+TEST_CASE("a file that is cut off, or not an EULUMDAT file, is refused at its line") {
+    CHECK_THROWS_WITH(Lamp(k_lamp.substr(0, k_lamp.size() - 4)).sent_to(0, 0),
+                      ContainsSubstring("line 61 is not a number"));
+    CHECK_THROWS_WITH(Lamp("hello\n").sent_to(0, 0), ContainsSubstring("line 3 is not a number"));
 }
