@@ -185,6 +185,13 @@ TEST_CASE("an explanation as text has the same numbers and ends with the byte") 
     CHECK(holds(result.out, "byte " + same.at("bytes").at(0).dump()));
 }
 
+TEST_CASE("a kernel's table is named, not printed as a list") {
+    const CommandResult result =
+        succeeded(run_candela({"explain", "--pixel", "256,320", "--set", "light.lamp.type=ies", "--set",
+                               "light.lamp.direction=[0, -1, -1]"}));
+    CHECK(holds(result.out, "light.file = a table"));
+}
+
 TEST_CASE("without a compiler, explain says so and reports the renderer's data") {
     const CommandResult result = expect_out(
         run_candela({"explain", "--pixel", "256,320"}, {.environment = {{"PATH", "/nowhere"}, {"CXX", ""}}}),

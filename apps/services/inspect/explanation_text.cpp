@@ -26,6 +26,7 @@ std::string text_of(Vec3 v) { return fmt::format("[{:.6g}, {:.6g}, {:.6g}]", v.x
 
 std::string text_of(const std::vector<double>& numbers) {
     if (numbers.size() == 1) return fmt::format("{:.6g}", numbers[0]);
+    if (numbers.empty()) return "a table";
     std::string result;
     for (const double number : numbers)
         result += fmt::format("{}{:.6g}", result.empty() ? "[" : ", ", number);
