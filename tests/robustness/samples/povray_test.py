@@ -18,7 +18,8 @@ import readers
 
 WIDTH, HEIGHT = 400, 300
 TOLERANCE = 2  # of 255
-EDGE = 24  # more between neighbours is an edge, where the two may see different surfaces
+LAMBERT_KD = 0.7  # reflection/lambert without a setting
+EDGE = 14  # more between neighbours is an edge, where the two may see different surfaces
 PHONG, LAMBERT, FACETS = (), ("--reflection", "lambert"), ("--reflection", "lambert", "--shading", "flat")
 # The file, the models to draw, and a brightness of the scene's lights at which nothing is white.
 CASES = (
@@ -71,8 +72,9 @@ class Materials:
     def of(self, part):
         if self.base_colors:
             color, metallic = self.base_colors[part.material]
-            diffuse = 0.96 * (1 - metallic)  # glTF 2.0, appendix B: the index of refraction is 1.5
-            return Material(color, diffuse, diffuse)
+            # The imported material is reflection/metallic-roughness, of which Lambert's only has the ambient part. glTF 2.0, appendix B: the
+            # index of refraction is 1.5.
+            return Material(color, 0.96 * (1 - metallic), LAMBERT_KD)
         if part.material in self.library:
             found = self.library[part.material]
             # docs/user/meshes.md: no highlight without an exponent, no more is sent out than is received, and white ambient
@@ -148,7 +150,9 @@ def drawn_by_povray(path, scene, options, brightness, folder):
 
 
 def drawn_by_candela(candela, scene, options, brightness, folder):
-    lights = [f"--set=light.{light['name']}.intensity={light['intensity'] * brightness}" for light in scene["light"]]
+    # As POV-Ray's meshes, which are no_shadow.
+    lights = ["--set=shadows.enabled=false"]
+    lights += [f"--set=light.{light['name']}.intensity={light['intensity'] * brightness}" for light in scene["light"]]
     subprocess.run([candela, "render", "scene.toml", "-o", "ours.ppm", "--samples=1", f"--width={WIDTH}", f"--height={HEIGHT}",
                     "--quiet", *lights, *options], cwd=folder, check=True, timeout=120)
     return read_ppm(folder / "ours.ppm")
