@@ -134,7 +134,6 @@ class SceneBuilder {
             solid.label = object.label.text();
             if (const Object* const old = object_before(i);
                 old != nullptr && old->color == object.color && old->color_texture == object.color_texture &&
-                old->color_texture_wrap == object.color_texture_wrap &&
                 old->normal_map == object.normal_map && old->shading == object.shading &&
                 old->reflection == object.reflection && old->textures == object.textures &&
                 old->common == object.common) {
@@ -144,7 +143,6 @@ class SceneBuilder {
             guarded("object " + object.label.text(), object.place, [&] {
                 SurfaceModels surface;
                 surface.color = decoded(object.color, encoding());
-                surface.color_texture_wrap = object.color_texture_wrap;
                 set_common(object.common, surface);
                 surface.set_shading(registry_, object.shading, encoding());
                 surface.set_reflection(registry_, object.reflection, encoding());
@@ -163,8 +161,8 @@ class SceneBuilder {
     void make_textures() {
         SceneTextures textures(registry_, diagnostics_, encoding());
         for (std::size_t i = 0; before_ != nullptr && i < scene_.objects.size(); ++i) {
-            textures.keep(*object_before(i), before_->built.objects[i].surface);
-            textures.keep(scene_.objects[i], built_.objects[i].surface);  // moved from before
+            textures.keep(before_->built.objects[i].surface);
+            textures.keep(built_.objects[i].surface);  // moved from before
         }
         for (std::size_t i = 0; i < scene_.objects.size(); ++i)
             textures.make(scene_.objects[i], built_.objects[i].surface);

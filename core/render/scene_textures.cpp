@@ -21,9 +21,7 @@ std::string SceneTextures::key_of(const std::string& file, ColorEncoding decodin
     return fmt::format("{} {}", static_cast<int>(decoding), file);
 }
 
-void SceneTextures::keep(const Object& object, const SurfaceModels& surface) {
-    if (surface.color_texture != nullptr)
-        pictures_[key_of(object.color_texture, of_scene_)] = surface.color_texture;
+void SceneTextures::keep(const SurfaceModels& surface) {
     for (const PlacedTexture& texture : surface.material_textures.textures)
         pictures_[texture.key] = texture.picture;
 }
@@ -43,10 +41,6 @@ const std::shared_ptr<const MipMap>& SceneTextures::picture(const std::string& f
 }
 
 void SceneTextures::make(const Object& object, SurfaceModels& surface) {
-    if (!object.color_texture.empty() && surface.color_texture == nullptr)
-        reported(diagnostics_, "object " + object.label.text(), object.texture_place, [&] {
-            surface.color_texture = picture(object.color_texture, of_scene_, object.texture_place);
-        });
     if (surface.material_textures.arrays() > 0) return;
     if (object.normal_map) make_normal_map(object, *object.normal_map, surface);
     const auto read = [&](const ParameterTexture& texture, const Parameter& parameter, const auto& add) {
@@ -69,6 +63,10 @@ void SceneTextures::make(const Object& object, SurfaceModels& surface) {
         read(texture, material_parameter(texture.parameter),
              [&](const PlacedTexture& placed) { surface.material_textures.add_common(texture, placed); });
     }
+    if (object.color_texture)
+        read(*object.color_texture, color_parameter(), [&](const PlacedTexture& placed) {
+            surface.material_textures.add_color(*object.color_texture, placed);
+        });
 }
 
 void SceneTextures::make_normal_map(const Object& object, const NormalMap& map, SurfaceModels& surface) {
@@ -100,16 +98,14 @@ void SceneTextures::make_normal_map(const Object& object, const NormalMap& map, 
 }
 
 void require_texture_coordinates(const Object& object, Diagnostics& diagnostics) {
-    SourceLocation place = object.texture_place;
-    std::string what = "color_texture";
     const auto& textures = object.textures.empty() ? object.common.textures : object.textures;
-    if (object.color_texture.empty() && !textures.empty()) {
-        place = textures.front().place;
-        what = fmt::format("the texture of '{}'", textures.front().parameter);
-    } else if (object.color_texture.empty()) {
-        place = object.normal_map->place;
-        what = object.normal_map->has_heights ? "bump_map" : "normal_map";
-    }
+    const ParameterTexture* const first = object.color_texture ? &*object.color_texture
+                                          : textures.empty()   ? nullptr
+                                                               : &textures.front();
+    const SourceLocation& place = first != nullptr ? first->place : object.normal_map->place;
+    const std::string what = first != nullptr ? fmt::format("the texture of '{}'", first->parameter)
+                             : object.normal_map->has_heights ? "bump_map"
+                                                              : "normal_map";
     diagnostics.error(
         place,
         fmt::format("object {} has no texture coordinates, which a texture needs", object.label.text()),

@@ -191,8 +191,8 @@ struct TextureTransform {
     friend bool operator==(const TextureTransform&, const TextureTransform&) = default;
 };
 
-/// A parameter of an object's reflection model whose values come from a picture: offset + scale * texel at
-/// each point, clamped to the parameter's range.
+/// A parameter of an object's material, or its colour, whose values come from a picture: offset + scale *
+/// texel at each point, clamped to the parameter's range.
 struct ParameterTexture {
     std::string parameter{};
     std::string file{};  // absolute path
@@ -245,9 +245,8 @@ struct Object {
     Label label;
     Model shape;
     Transform transform;
-    Vec3 color{200, 200, 200};    // 0-255
-    std::string color_texture{};  // absolute path of a picture that multiplies `color`; empty: none
-    TextureWrap color_texture_wrap = TextureWrap::repeat;
+    Vec3 color{200, 200, 200};                        // 0-255; white, if a texture gives it
+    std::optional<ParameterTexture> color_texture{};  // which gives it
     std::optional<NormalMap> normal_map{};
     bool encloses = false;  // others may be inside; drawn from both sides
     bool casts_shadows = true;
@@ -259,16 +258,15 @@ struct Object {
     CommonMaterial common{};
     SourceLocation place;
     SourceLocation position_place{};  // of its 'position', or of the whole object
-    SourceLocation texture_place{};   // of its 'color_texture', or of the whole object
 
     /// Ignores positions in the file.
     friend inline bool operator==(const Object& a, const Object& b) {
         return a.label == b.label && a.shape == b.shape && a.transform == b.transform && a.color == b.color &&
-               a.color_texture == b.color_texture && a.color_texture_wrap == b.color_texture_wrap &&
-               a.normal_map == b.normal_map && a.encloses == b.encloses &&
-               a.casts_shadows == b.casts_shadows && a.receives_shadows == b.receives_shadows &&
-               a.transmits_light == b.transmits_light && a.shading == b.shading &&
-               a.reflection == b.reflection && a.textures == b.textures && a.common == b.common;
+               a.color_texture == b.color_texture && a.normal_map == b.normal_map &&
+               a.encloses == b.encloses && a.casts_shadows == b.casts_shadows &&
+               a.receives_shadows == b.receives_shadows && a.transmits_light == b.transmits_light &&
+               a.shading == b.shading && a.reflection == b.reflection && a.textures == b.textures &&
+               a.common == b.common;
     }
 };
 

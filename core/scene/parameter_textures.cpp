@@ -1,4 +1,4 @@
-// Parameters of reflection models that have a picture instead of a value.
+// Colours of objects and parameters of their materials that have a picture instead of a value.
 module;
 
 #include <fmt/format.h>
@@ -75,6 +75,13 @@ CommonMaterial ModelChooser::take_common(TableNode& material, const PluginFile& 
     });
     keys.assign(&own, read_parameters(own, keys.schema(), context, tables_.diagnostics()).set, common);
     return common;
+}
+
+std::optional<ParameterTexture> ModelChooser::take_color_texture(TableNode& object,
+                                                                 const std::string& where) {
+    const auto textures =
+        take_textures(object, {color_parameter()}, where, [](const Parameter&) { return std::string(); });
+    return textures.empty() ? std::nullopt : std::optional(textures.front());
 }
 
 /// Replaces each table among the material's values by a number, and returns what the tables say.

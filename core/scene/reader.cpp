@@ -303,17 +303,26 @@ class Reader {
                         light.model.name));
     }
 
-    void read_object(const TableNode& table, const SourceLocation& place, std::size_t index,
+    void read_object(const TableNode& whole, const SourceLocation& place, std::size_t index,
                      ModelChooser& models) {
         Object object;
-        object.label = label_of("object", table, index);
-        object.place = object.position_place = object.texture_place = place;
+        object.label = label_of("object", whole, index);
+        object.place = object.position_place = place;
         const std::size_t errors = diagnostics_.error_count();
         const TableContext context{fmt::format("[[object]] {}", short_text(object.label)),
                                    {Help::Topic::plugins_of_kind, "shape"},
                                    place};
+        TableNode without_texture;
+        const TableNode::Entry* const color = whole.find("color");
+        const bool has_texture = color != nullptr && color->node.table() != nullptr;
+        if (has_texture) {
+            without_texture = whole;
+            object.color_texture = models.take_color_texture(without_texture, context.where);
+        }
+        const TableNode& table = has_texture ? without_texture : whole;
         const TableValues own = read_parameters(table, own_tables().object.schema(), context, diagnostics_);
         own_tables().object.assign(&table, own.set, object);
+        if (object.color_texture) object.color = {255, 255, 255};
         object.normal_map = normal_map_in(table, "object " + object.label.text(), diagnostics_);
         auto shape = read_typed("object", PluginKind::shape, table, own.set, context,
                                 {"material", "normal_map", "bump_map"});
@@ -367,7 +376,7 @@ std::vector<std::filesystem::path> input_files(const SceneDraft& draft) {
     if (!scene.image.environment.empty()) files.emplace_back(scene.image.environment);
     for (const LightSource& light : scene.lights) add_files(light.model, files);
     for (const Object& object : scene.objects) {
-        if (!object.color_texture.empty()) files.emplace_back(object.color_texture);
+        if (object.color_texture) files.emplace_back(object.color_texture->file);
         for (const auto* const textures : {&object.textures, &object.common.textures})
             for (const ParameterTexture& texture : *textures) files.emplace_back(texture.file);
         if (object.normal_map) files.emplace_back(object.normal_map->file);

@@ -246,15 +246,7 @@ Table<Object> object() {
          field(Type::rgb, "scale", "before rotation; one number or three", &Object::transform,
                &Transform::scale)
              .above(0),
-         field(Type::color, "color", "colour of the surface", &Object::color),
-         field(Type::file, "color_texture",
-               "a picture that multiplies the colour, placed by the shape's texture coordinates",
-               &Object::color_texture)
-             .placed(&Object::texture_place),
-         choice({"repeat", "clamp"}, "color_texture_wrap",
-                "beyond the edges of color_texture: repeat the picture, or continue the colours at its edges",
-                &Object::color_texture_wrap)
-             .omitted_by_default(),
+         field(Type::color, "color", "colour of the surface; a texture may give it", &Object::color),
          field(Type::boolean, "encloses",
                "whether lights, the observer and other objects may be inside, as in a room or a lampshade; "
                "the object is then drawn from both sides",
@@ -301,8 +293,9 @@ Table<ParameterTexture> texture() {
     return {
         {.name = "texture",
          .title = "a texture",
-         .meaning = "a picture from which a parameter of a reflection model takes its value at each point: "
-                    "offset + scale * texel, within the parameter's range",
+         .meaning =
+             "a picture from which an object's colour, or a parameter of its material, takes its value "
+             "at each point: offset + scale * texel, within the parameter's range",
          .tables = {texture_transform().about()}},
         {field(Type::file, "texture", "the picture, placed by the shape's texture coordinates",
                &ParameterTexture::file)
@@ -423,6 +416,10 @@ const TableSchema& material_schema() { return own_tables().material.about(); }
 
 const Parameter& material_parameter(std::string_view name) {
     return *std::ranges::find(material_schema().parameters, name, &Parameter::name);
+}
+
+const Parameter& color_parameter() {
+    return *std::ranges::find(own_tables().object.about().parameters, "color", &Parameter::name);
 }
 
 bool takes_texture(const Parameter& of_material) { return of_material.name != "emission_strength"; }

@@ -53,6 +53,8 @@ CANDELA_EXPORT const TableSchema& material_schema();
 CANDELA_EXPORT const Parameter& material_parameter(std::string_view name);
 /// Whether such a key may have a texture.
 CANDELA_EXPORT bool takes_texture(const Parameter& of_material);
+/// The key 'color' of [[object]], which may have one, too.
+CANDELA_EXPORT const Parameter& color_parameter();
 
 /// The keys before all tables; its name is empty.
 CANDELA_EXPORT const TableSchema& top_schema();

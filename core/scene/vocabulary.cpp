@@ -35,6 +35,9 @@ constexpr std::string_view k_of_object =
     "it belongs in [[object]], such as normal_map = { texture = \"n.png\" }";
 constexpr std::string_view k_parameter_texture =
     "write a table in [object.material], such as roughness = { texture = \"r.png\" }";
+constexpr std::string_view k_color_texture = "write color = { texture = \"a.png\" }";
+constexpr std::string_view k_color_of_object =
+    "the colour is the object's: color = { texture = \"a.png\" } in [[object]]";
 constexpr std::string_view k_shape_size = "an object's size is its 'scale'";
 constexpr std::string_view k_camera_settings = "write exposure = { aperture = 8, time = 0.008, iso = 200 }";
 constexpr std::string_view k_cone = "write inner_angle and outer_angle, half-angles in degrees";
@@ -199,15 +202,17 @@ constexpr auto k_words = std::to_array<Word>({
     {"object", "depth", k_shape_size},
     {"object", "length", k_shape_size},
     {"object", "side", k_shape_size},
-    {"object", "texture", "color_texture"},
-    {"object", "map", "color_texture"},
-    {"object", "image", "color_texture"},
-    {"object", "map_kd", "color_texture"},
-    {"object", "albedo_texture", "color_texture"},
-    {"object", "diffuse_map", "color_texture"},
-    {"object", "diffuse_texture", "color_texture"},
-    {"object", "base_color_texture", "color_texture"},
-    {"object", "texture_wrap", "color_texture_wrap"},
+    {"object", "texture", k_color_texture},
+    {"object", "map", k_color_texture},
+    {"object", "image", k_color_texture},
+    {"object", "map_kd", k_color_texture},
+    {"object", "albedo_texture", k_color_texture},
+    {"object", "diffuse_map", k_color_texture},
+    {"object", "diffuse_texture", k_color_texture},
+    {"object", "base_color_texture", k_color_texture},
+    {"object", "color_texture", k_color_texture},
+    {"object", "color_texture_wrap", "write color = { texture = \"a.png\", wrap = \"clamp\" }"},
+    {"object", "texture_wrap", "write color = { texture = \"a.png\", wrap = \"clamp\" }"},
     {"object", "bump", "bump_map"},
     {"object", "bump_texture", "bump_map"},
     {"object", "normal", "normal_map"},
@@ -242,10 +247,11 @@ constexpr auto k_words = std::to_array<Word>({
     {"material", "albedo", "the colour is the object's: 'color' in [[object]]"},
     {"material", "base_color", "the colour is the object's: 'color' in [[object]]"},
     {"material", "diffuse_color", "the colour is the object's: 'color' in [[object]]"},
-    {"material", "texture", "the texture is the object's: 'color_texture' in [[object]]"},
-    {"material", "map", "the texture is the object's: 'color_texture' in [[object]]"},
-    {"material", "map_kd", "the texture is the object's: 'color_texture' in [[object]]"},
-    {"material", "diffuse_texture", "the texture is the object's: 'color_texture' in [[object]]"},
+    {"material", "texture", k_color_of_object},
+    {"material", "map", k_color_of_object},
+    {"material", "map_kd", k_color_of_object},
+    {"material", "diffuse_texture", k_color_of_object},
+    {"material", "color_texture", k_color_of_object},
     {"material", "metallic_texture", k_parameter_texture},
     {"material", "roughness_texture", k_parameter_texture},
     {"material", "specular_texture", k_parameter_texture},

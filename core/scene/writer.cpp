@@ -184,6 +184,11 @@ class Writer {
             const std::string& key = field.parameter.name;
             if (key == "shading" && object.shading == shading_) continue;
             if (key == "reflection" && object.reflection.name == reflection_) continue;
+            if (key == "color" && object.color_texture) {
+                add(key, inline_table(own_tables().texture, *object.color_texture,
+                                      object.color_texture->transform));
+                continue;
+            }
             add(field, object);
             if (key == "type") add_parameters(object.shape.parameters, object.label.text());
         }

@@ -117,6 +117,11 @@ void MaterialTextures::add_common(const ParameterTexture& texture, const PlacedT
     add_numbers(texture, parameter, 0, picture);
 }
 
+void MaterialTextures::add_color(const ParameterTexture& texture, const PlacedTexture& picture) {
+    color = numbers.size();
+    add_numbers(texture, color_parameter(), 0, picture);
+}
+
 void MaterialTextures::add_numbers(const ParameterTexture& texture, const Parameter& parameter,
                                    std::size_t index, const PlacedTexture& picture) {
     const std::size_t number = number_of(picture);

@@ -47,8 +47,6 @@ CANDELA_EXPORT RenderLight render_light(Registry& registry, const Model& model, 
 /// The appearance of an object's surface.
 struct CANDELA_EXPORT SurfaceModels {
     Rgb color;
-    std::shared_ptr<const MipMap> color_texture{};  // multiplies the colour; null: none
-    TextureWrap color_texture_wrap = TextureWrap::repeat;
     MaterialTextures material_textures{};
     Rgb emission{};       // added to the light that the points reflect; multiplies its texture, if it has one
     float occlusion = 1;  // multiplies what they reflect of ambient light, where no texture does
@@ -67,7 +65,7 @@ struct CANDELA_EXPORT SurfaceModels {
     void set_shading(Registry& registry, const Model& model, ColorEncoding encoding);
     void set_reflection(Registry& registry, const Model& model, ColorEncoding encoding);
 
-    bool has_textures() const { return color_texture != nullptr || material_textures.arrays() > 0; }
+    bool has_textures() const { return material_textures.arrays() > 0; }
 
     bool emits() const { return emission != Rgb{}; }
     bool is_occluded() const {

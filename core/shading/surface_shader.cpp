@@ -184,15 +184,16 @@ void apply_textures(const SurfaceModels& surface, SurfacePoints& points) {
     const std::size_t arrays = surface.material_textures.arrays();
     while (points.parameters.size() < arrays) points.parameters.emplace_back(k_batch_size);
     evaluate(surface.material_textures, points.filled, at, points.parameters);
-    if (surface.color_texture == nullptr) return;
-    const Vec3Span color = points.color.span();
-    if (!points.has_color) {
-        std::fill_n(color.x, points.filled, surface.color.r);
-        std::fill_n(color.y, points.filled, surface.color.g);
-        std::fill_n(color.z, points.filled, surface.color.b);
-        points.has_color = true;
+    const std::size_t first = surface.material_textures.color;
+    if (first == MaterialTextures::k_none) return;
+    // With a texture, the object's own colour is white.
+    const std::array<float*, 3> channels{points.color.x.data(), points.color.y.data(), points.color.z.data()};
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        const float* const texture = points.parameters[first + c].data();
+        for (std::size_t i = 0; i < points.filled; ++i)
+            channels[c][i] = points.has_color ? channels[c][i] * texture[i] : texture[i];
     }
-    surface.color_texture->multiply(surface.color_texture_wrap, points.filled, at, color);
+    points.has_color = true;
 }
 
 void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& normal) {

@@ -1,4 +1,4 @@
-// Pictures that multiply the colour of a surface, by its texture coordinates.
+// Pictures that give the colour of a surface and the numbers of its material, by its texture coordinates.
 module;
 
 #include "candela/plugin/export.h"
@@ -60,12 +60,9 @@ class CANDELA_EXPORT MipMap {
     /// Of each level: width, height, first texel, padding.
     std::span<const std::int32_t> sizes() const noexcept { return sizes_; }
 
-    /// Multiplies `color` at each of `count` points by the value of the picture: bilinear within a level,
-    /// linear between the two levels whose texels are closest in size to a pixel (of an elongated footprint,
-    /// to its longer side).
-    void multiply(TextureWrap wrap, std::size_t count, const TextureCoordinates& at,
-                  const Vec3Span& color) const noexcept;
-    /// The same, at points that have been found in a picture of the same size.
+    /// Multiplies `color` at each point by the value of the picture: bilinear within a level, linear between
+    /// the two levels whose texels are closest in size to a pixel (of an elongated footprint, to its longer
+    /// side). The points have been found in this picture or one of the same size.
     void multiply(const TextureFootprints& at, const Vec3Span& color) const noexcept;
 
   private:
@@ -85,8 +82,8 @@ struct PlacedTexture {
     CANDELA_EXPORT std::array<int, 2> texel_at(float u, float v) const noexcept;
 };
 
-/// A number of a reflection model's parameter that comes from a picture: offset + scale * texel, from
-/// `minimum` to `maximum`. In the units in which plugins receive it.
+/// A number of a material that comes from a picture: offset + scale * texel, from `minimum` to `maximum`. In
+/// the units in which plugins receive it.
 struct TexturedNumber {
     std::size_t texture = 0;
     std::size_t texel_channel = 0;
@@ -105,14 +102,15 @@ struct TexturedNormal {
     std::array<float, 4> to_uv{1, 0, 0, 1};
 };
 
-/// The parameters of a material that differ from point to point, and its normals.
+/// The parameters of a material that differ from point to point, its colour, and its normals.
 struct MaterialTextures {
     static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
 
     std::vector<PlacedTexture> textures{};
     std::vector<TexturedNumber> numbers{};
-    std::size_t of_model = 0;                           // how many of them, the first, are the model's
-    std::size_t emission = k_none, occlusion = k_none;  // the first of their numbers, of three and of one
+    std::size_t of_model = 0;  // how many of them, the first, are the model's
+    // The first of their numbers, of three and of one:
+    std::size_t color = k_none, emission = k_none, occlusion = k_none;
     std::optional<TexturedNormal> normal{};
 
     /// How many arrays evaluate() writes.
@@ -121,8 +119,9 @@ struct MaterialTextures {
     /// Adds the numbers of a parameter, the model's number `index`.
     CANDELA_EXPORT void add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
                             const PlacedTexture& picture);
-    /// Adds those of a parameter of CommonMaterial; after all of the model's.
+    /// Add those of a parameter of CommonMaterial, and of the colour; after all of the model's.
     CANDELA_EXPORT void add_common(const ParameterTexture& texture, const PlacedTexture& picture);
+    CANDELA_EXPORT void add_color(const ParameterTexture& texture, const PlacedTexture& picture);
 
     /// Adds a picture that tilts normals, of this width and height.
     CANDELA_EXPORT void add(const NormalMap& map, const PlacedTexture& picture, int width, int height);

@@ -350,14 +350,4 @@ void MipMap::multiply(const TextureFootprints& at, const Vec3Span& color) const 
     }
 }
 
-void MipMap::multiply(TextureWrap wrap, std::size_t count, const TextureCoordinates& at,
-                      const Vec3Span& color) const noexcept {
-    TextureFootprints footprints;
-    for (std::size_t first = 0; first < count; first += k_batch_size) {
-        footprints.find(*this, wrap, std::min(k_batch_size, count - first),
-                        {at.uv.from(first), at.per_x.from(first), at.per_y.from(first)});
-        multiply(footprints, color.from(first));
-    }
-}
-
 }  // namespace candela

@@ -75,9 +75,7 @@ class MaterialReader {
         if (keyword == "ks") return color(rest, to.ks);
         if (keyword == "ke") return color(rest, to.ke);
         if (keyword == "map_kd") {
-            MtlMap map = texture(rest);
-            to.texture = std::move(map.file);
-            to.clamps = map.clamps;
+            to.color_map = texture(rest);
             return;
         }
         if (keyword == "map_ke") {
@@ -156,13 +154,16 @@ class MaterialReader {
                     map.multiplier = numbers[0];
                 if (option == "-imfchan" && (value == "g" || value == "b")) map.channel = value[0];
             } else {
-                for (int i = 0; i < 3; ++i) {
+                for (std::size_t i = 0; i < 3; ++i) {
                     std::string_view next = after;
-                    const std::string_view word = word_from(next);
-                    if (next.empty() || numbers_from(word).empty()) break;
+                    const std::vector<double> numbers = numbers_from(word_from(next));
+                    if (next.empty() || numbers.empty()) break;
                     after = next;
+                    if (i < 2 && option == "-s") map.scale[i] = numbers[0];
+                    if (i < 2 && option == "-o") map.offset[i] = numbers[0];
                 }
-                note("the offset and scale of textures are left out");
+                if (option == "-t" || option == "-mm")
+                    note("the turbulence and the range of textures are left out");
             }
             rest = after;
         }

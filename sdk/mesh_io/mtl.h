@@ -1,6 +1,7 @@
 // The materials of an MTL file.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,6 +15,8 @@ struct MtlMap {
     bool clamps = false;    // at its edges
     char channel = 'r';     // of numbers: r, g or b
     double multiplier = 1;  // -bm, of a bump map
+    // -s and -o: texture coordinates are scaled, then moved.
+    std::array<double, 2> scale{1, 1}, offset{0, 0};
 };
 
 /// A material in the terms of the file.
@@ -24,8 +27,7 @@ struct MtlMaterial {
     MtlMap emission_map{};           // map_Ke
     double shininess = 0;            // Ns
     int illumination = 2;            // illum
-    std::string texture;             // map_Kd, as the file names it
-    bool clamps = false;             // the texture is clamped at its edges
+    MtlMap color_map{};              // map_Kd
     // Of materials for physically based models, absent for others:
     std::optional<double> roughness{}, metallic{}, sheen{};  // Pr, Pm, Ps
     std::optional<double> coat{}, coat_roughness{};          // Pc, Pcr

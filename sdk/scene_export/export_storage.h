@@ -26,7 +26,8 @@ struct ExportStorage : ExportedGeometry {
         bool encloses = false;
         std::vector<ExportedValues> shadings, materials;
         std::vector<ParamSet> shading_values;
-        std::vector<ExportedTexturedNumber> textured_numbers, emission_numbers, occlusion_numbers;
+        std::vector<ExportedTexturedNumber> textured_numbers, color_numbers, emission_numbers,
+            occlusion_numbers;
         std::optional<ExportedNormalMap> normal_map;
     };
 

@@ -75,6 +75,7 @@ class Exporter {
             to_.exported_objects[i].textured_numbers = to_.objects[i].textured_numbers;
             if (to_.objects[i].normal_map) to_.exported_objects[i].normal_map = &*to_.objects[i].normal_map;
             to_.exported_objects[i].emission_numbers = to_.objects[i].emission_numbers;
+            to_.exported_objects[i].color_numbers = to_.objects[i].color_numbers;
             to_.exported_objects[i].occlusion_numbers = to_.objects[i].occlusion_numbers;
         }
         ExportedScene& result = to_.scene;
@@ -317,19 +318,7 @@ class Exporter {
         return kind == PluginKind::shading ? object.shading.parameters : object.reflection.parameters;
     }
 
-    /// The index of an object's texture; objects share them.
-    std::size_t texture_of(const Object& object) {
-        if (object.color_texture.empty()) return ExportedObject::k_no_texture;
-        if (!request_.abilities.textures)
-            throw Error(
-                ErrorCategory::failure,
-                fmt::format(
-                    "object {} has a texture, which this target does not support; remove color_texture",
-                    object.label.text()));
-        return texture_of(object.color_texture, scene_.image.color_management);
-    }
-
-    /// The index of a picture that is decoded like that.
+    /// The index of a picture that is decoded like that; objects share them.
     std::size_t texture_of(const std::string& file, ColorEncoding encoding) {
         const auto [known, is_new] = textures_.try_emplace({file, encoding}, to_.textures.size());
         if (is_new) add_texture(file, read_texture(file, registry_, encoding).mip_map);
@@ -382,6 +371,8 @@ class Exporter {
                         fmt::format("object {} {}, which this target does not support; {}",
                                     object.label.text(), what, remedy));
         };
+        if (object.color_texture && !request_.abilities.textures)
+            refuse("has a texture", "give 'color' a value");
         if (!object.textures.empty() && !request_.abilities.textured_numbers)
             throw Error(ErrorCategory::failure,
                         fmt::format("'{}' of object {} has a texture, which this target supports only for "
@@ -393,9 +384,9 @@ class Exporter {
             refuse("has an occlusion of ambient light", "remove 'occlusion' from its material");
     }
 
-    /// The numbers of an object that come from pictures: of its own material, emission and occlusion.
+    /// The numbers of an object that come from pictures: of its own material, emission, occlusion and colour.
     void add_textured_numbers(const Object& object, ExportStorage::Object& to) {
-        if (object.textures.empty() && object.common.textures.empty()) return;
+        if (object.textures.empty() && object.common.textures.empty() && !object.color_texture) return;
         MaterialTextures textures;
         std::vector<std::size_t> pictures;  // of each texture: index of to_.textures
         const auto place = [&](const ParameterTexture& texture, const Parameter& parameter, const auto& add) {
@@ -415,6 +406,9 @@ class Exporter {
             place(texture, material_parameter(texture.parameter),
                   [&](const PlacedTexture& placed) { textures.add_common(texture, placed); });
         }
+        if (object.color_texture)
+            place(*object.color_texture, color_parameter(),
+                  [&](const PlacedTexture& placed) { textures.add_color(*object.color_texture, placed); });
         for (std::size_t i = 0; i < textures.numbers.size(); ++i) {
             const TexturedNumber& number = textures.numbers[i];
             const PlacedTexture& placed = textures.textures[number.texture];
@@ -428,9 +422,11 @@ class Exporter {
                                             .minimum = number.minimum,
                                             .maximum = number.maximum};
             std::ranges::copy(placing_of(placed.transform), exported.placing);
-            const bool is_of_model = i < textures.of_model, is_occlusion = i == textures.occlusion;
+            const bool is_of_model = i < textures.of_model, is_occlusion = i == textures.occlusion,
+                       is_color = i >= textures.color && i - textures.color < 3;
             (is_of_model    ? to.textured_numbers
              : is_occlusion ? to.occlusion_numbers
+             : is_color     ? to.color_numbers
                             : to.emission_numbers)
                 .push_back(exported);
         }
@@ -452,8 +448,6 @@ class Exporter {
                 to_.kept(registry_.descriptor(PluginKind::shape, object.shape.name), object.shape.parameters,
                          [&]() -> const Shape* { return own.tessellator.get(); }),
             .transform = object.transform,
-            .color_texture = texture_of(object),
-            .color_texture_repeats = object.color_texture_wrap == TextureWrap::repeat,
             .emission = object.common.emission,
             .emission_strength = object.common.emission_strength,
             .occlusion = object.common.occlusion,

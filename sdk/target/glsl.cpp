@@ -22,8 +22,6 @@ CANDELA_EMBED(candela_target_triangle_fragment, CANDELA_TARGET_TEMPLATES "/trian
 CANDELA_EMBED(candela_target_texture, CANDELA_TARGET_TEMPLATES "/texture.glsl");
 CANDELA_EMBED(candela_target_texture_vertex, CANDELA_TARGET_TEMPLATES "/texture_vertex.glsl");
 CANDELA_EMBED(candela_target_texture_fragment, CANDELA_TARGET_TEMPLATES "/texture_fragment.glsl");
-CANDELA_EMBED(candela_target_material_vertex, CANDELA_TARGET_TEMPLATES "/material_vertex.glsl");
-CANDELA_EMBED(candela_target_material_fragment, CANDELA_TARGET_TEMPLATES "/material_fragment.glsl");
 CANDELA_EMBED(candela_target_shadow_fragment, CANDELA_TARGET_TEMPLATES "/shadow_fragment.glsl");
 CANDELA_EMBED(candela_target_screen, CANDELA_TARGET_TEMPLATES "/screen.glsl");
 CANDELA_EMBED(candela_target_accumulate, CANDELA_TARGET_TEMPLATES "/accumulate.glsl");
@@ -179,56 +177,45 @@ const GlslDepth k_reversed_depth{
 
 GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     require_different_names(scene);
-    const bool has_materials = most_material_pictures(scene) > 0;
+    const bool is_textured = !scene.textures.empty();
     GlslParts parts;
     const auto if_shadows = [&](const char* text) { return scene.has_shadows ? text : ""; };
     const std::string lit =
         filled(candela_target_lit,
                {{"PREPARATION", calls_of_preparations(scene)},
                 {"NORMAL", has_normal_maps(scene) ? k_mapped_normal : k_shading_normal},
+                {"COLOR", has_color_textures(scene) ? "own_color" : "object_color"},
                 {"EMISSION", has_emission(scene) ? " + own_emission" : ""},
                 {"SEEN_SIDE",
                  if_shadows("    seen_side = facing * point.face_normal;\n    seen_facing = facing;\n")}});
     parts.lights = common_material(scene) + lights_text(scene);
     for (const auto& model : scene.reflections)
         parts.reflections.push_back(
-            reflection_text(model, scene.has_shadows, has_materials, has_common_textures(scene)));
+            reflection_text(model, scene.has_shadows, is_textured, has_common_textures(scene)));
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
-    const bool needs_triangle = sees_triangles(scene), is_textured = !scene.textures.empty();
+    const bool needs_triangle = sees_triangles(scene);
     constexpr const char *k_triangle = "NEEDS_TRIANGLE", *k_texture = "TEXTURED",
                          *k_material = "READS_PICTURES";
-    const char* const color = has_materials ? "TEXTURED_COLOR" : k_texture;
     parts.vertex =
-        lit +
-        stage_text(
-            candela_target_vertex,
-            {{needs_triangle, candela_target_triangle_vertex, "PASS_TRIANGLE", k_triangle,
-              "pass_triangle();"},
-             {is_textured, candela_target_texture_vertex, "PASS_TEXTURE", k_texture, "pass_texture();"},
-             {is_textured, "", "TEXTURE_COLOR", color, "color *= color_texture_at(color_texture, uv, 0.0);"},
-             {has_materials, candela_target_material_vertex, "MATERIAL", k_material, k_look_up_at_vertex}},
-            {{"CORNER", if_shadows("flat out vec3 at_corner;\n")},
-             {"PASS_CORNER", if_shadows("    at_corner = position;\n")}});
+        lit + stage_text(
+                  candela_target_vertex,
+                  {{needs_triangle, candela_target_triangle_vertex, "PASS_TRIANGLE", k_triangle,
+                    "pass_triangle();"},
+                   {is_textured, candela_target_texture_vertex, "PASS_TEXTURE", k_texture, "pass_texture();"},
+                   {is_textured, "", "MATERIAL", k_material, k_look_up_at_vertex}},
+                  {{"CORNER", if_shadows("flat out vec3 at_corner;\n")},
+                   {"PASS_CORNER", if_shadows("    at_corner = position;\n")}});
     parts.fragment = lit + stage_text(candela_target_fragment,
                                       {{needs_triangle, candela_target_triangle_fragment, "READ_TRIANGLE",
                                         k_triangle, "read_triangle();"},
-                                       {is_textured, candela_target_texture_fragment, "TEXTURE_COLOR", color,
-                                        "color *= texture_seen(at_place, at_uv);"},
-                                       {has_materials, candela_target_material_fragment, "MATERIAL",
-                                        k_material, k_look_up_at_fragment}},
+                                       {is_textured, candela_target_texture_fragment, "MATERIAL", k_material,
+                                        k_look_up_at_fragment}},
                                       {{"DEPTH_UNIFORM", depth.uniform},
                                        {"DEPTH", depth.statement},
                                        {"SHADOW_PLACE", if_shadows(candela_target_shadow_fragment)},
                                        {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
     if (is_textured) {
-        const std::string texture = filled(
-            candela_target_texture,
-            {{"UNIT",
-              has_materials ? "    int unit;      // whose texels it has: those of the colour are 0\n" : ""},
-             {"UNITS", material_units(scene)},
-             {"TEXEL", has_materials
-                           ? "texel_of_unit(t.unit, (level == 0 ? ivec2(0) : corner) + ivec2(x, y))"
-                           : "texelFetch(color_texels, (level == 0 ? ivec2(0) : corner) + ivec2(x, y), 0)"}});
+        const std::string texture = filled(candela_target_texture, {{"UNITS", material_units(scene)}});
         parts.texture = texture + std::string(texture_kernel()) + "\n";
         if (has_normal_maps(scene)) parts.texture += std::string(normal_map_kernel()) + "\n";
     }

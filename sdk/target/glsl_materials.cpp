@@ -37,10 +37,12 @@ constexpr const char* k_reads_pictures =
 std::string text_of(const ExportedScene& scene, const ExportedObject& object, bool has_model) {
     const auto lookup = [&](const ExportedTexturedNumber& n) { return texel_text(object, n); };
     const auto [texels, assignments, common] = material_statements(
-        scene, object, {"    ", "vec3", "own_material", "own_emission", "own_occlusion", has_model}, lookup);
+        scene, object,
+        {"    ", "vec3", "own_material", "own_color", "own_emission", "own_occlusion", has_model}, lookup);
     std::string start = "    own_material = material;\n";
     if (has_common_textures(scene)) {
         start = "    start_material();\n";
+        if (has_color_textures(scene)) start += "    own_color = object_color;\n";
         if (has_emission(scene)) start += "    own_emission = object_emission;\n";
         if (has_occlusion(scene)) start += "    own_occlusion = object_occlusion;\n";
     }
@@ -66,10 +68,6 @@ std::string normal_text_of(const ExportedObject& object) {
                ascii_identifier(object.label), texel_text(object, map), normal_function(map),
                float_text(map.to_uv[0]), float_text(map.to_uv[1]), float_text(map.to_uv[2]),
                float_text(map.to_uv[3]));
-}
-
-bool has_common(const ExportedObject& object) {
-    return !object.emission_numbers.empty() || !object.occlusion_numbers.empty();
 }
 
 }  // namespace
@@ -112,25 +110,30 @@ std::vector<std::string> normal_map_texts(const ExportedScene& scene) {
 std::vector<std::string> textured_common_materials(const ExportedScene& scene) {
     std::vector<std::string> all;
     for (const ExportedObject& object : scene.objects)
-        all.push_back(has_common(object) ? text_of(scene, object, false) : "");
+        all.push_back(has_common_textures(object) ? text_of(scene, object, false) : "");
     return all;
 }
 
 bool has_common_textures(const ExportedScene& scene) {
-    return std::ranges::any_of(scene.objects, has_common);
+    return std::ranges::any_of(scene.objects,
+                               [](const ExportedObject& object) { return has_common_textures(object); });
 }
 
 std::string common_material(const ExportedScene& scene) {
     const bool is_textured = has_common_textures(scene);
-    std::string text;
-    const auto declare = [&](const char* type, const char* name) {
-        text += fmt::format("uniform {} object_{};\n", type, name);
+    std::string text = "uniform vec3 object_color;\n";
+    const auto declare_own = [&](const char* type, const char* name) {
         text += is_textured ? fmt::format(
                                   "#ifdef TEXTURED_MATERIAL\n{0} own_{1};\n#else\n#define own_{1} "
                                   "object_{1}\n#endif\n",
                                   type, name)
                             : fmt::format("#define own_{0} object_{0}\n", name);
     };
+    const auto declare = [&](const char* type, const char* name) {
+        text += fmt::format("uniform {} object_{};\n", type, name);
+        declare_own(type, name);
+    };
+    if (has_color_textures(scene)) declare_own("vec3", "color");
     if (has_emission(scene)) {
         text += "// The emission of the object.\n";
         declare("vec3", "emission");
@@ -149,11 +152,13 @@ std::string material_units(const ExportedScene& scene) {
     for (std::size_t i = 0; i < count; ++i) {
         declarations += fmt::format(
             "uniform highp usampler2D material_texels_{0};\nuniform ColorTexture material_texture_{0};\n", i);
-        choices +=
-            fmt::format("    if (unit == {}) return texelFetch(material_texels_{}, at, 0);\n", i + 1, i);
+        if (i > 0)
+            choices +=
+                fmt::format("    if (unit == {0}) return texelFetch(material_texels_{0}, at, 0);\n", i);
     }
     return fmt::format(
-        "{}uvec4 texel_of_unit(int unit, ivec2 at) {{\n{}    return texelFetch(color_texels, at, 0);\n}}\n",
+        "{}uvec4 texel_of_unit(int unit, ivec2 at) {{\n{}    return texelFetch(material_texels_0, at, "
+        "0);\n}}\n",
         declarations, choices);
 }
 

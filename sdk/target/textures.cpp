@@ -89,12 +89,21 @@ MaterialStatements material_statements(
                             parameter.type == ParamType::real ? "" : k_channels[n.channel], value_of(n));
         }
     }
-    for (const ExportedTexturedNumber& n : object.emission_numbers)
-        statements.common +=
-            fmt::format("{}{}{} *= {};\n", names.indent, names.emission, k_channels[n.channel], value_of(n));
+    const auto multiply = [&](const char* name, std::span<const ExportedTexturedNumber> numbers) {
+        for (const ExportedTexturedNumber& n : numbers)
+            statements.common +=
+                fmt::format("{}{}{} *= {};\n", names.indent, name, k_channels[n.channel], value_of(n));
+    };
+    multiply(names.color, object.color_numbers);
+    multiply(names.emission, object.emission_numbers);
     for (const ExportedTexturedNumber& n : object.occlusion_numbers)
         statements.common += fmt::format("{}{} = {};\n", names.indent, names.occlusion, value_of(n));
     return statements;
+}
+
+bool has_color_textures(const ExportedScene& scene) {
+    return std::ranges::any_of(scene.objects,
+                               [](const ExportedObject& object) { return !object.color_numbers.empty(); });
 }
 
 Rgb emission_of(const ExportedObject& object, ColorEncoding encoding) {
@@ -116,9 +125,14 @@ bool has_occlusion(const ExportedScene& scene) {
 
 std::vector<ExportedTexturedNumber> all_textured_numbers(const ExportedObject& object) {
     std::vector<ExportedTexturedNumber> all;
-    for (const auto numbers : {object.textured_numbers, object.emission_numbers, object.occlusion_numbers})
+    for (const auto numbers :
+         {object.textured_numbers, object.color_numbers, object.emission_numbers, object.occlusion_numbers})
         all.insert(all.end(), numbers.begin(), numbers.end());
     return all;
+}
+
+bool has_common_textures(const ExportedObject& object) {
+    return all_textured_numbers(object).size() > object.textured_numbers.size();
 }
 
 void write_textures(const ExportedScene& scene, FileSink& files) {

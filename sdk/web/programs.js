@@ -100,14 +100,14 @@ export class ProgramCache {
     }
 
     /** The program for an object of an appearance; it may still be compiling (Program.check waits). */
-    lighting({ shading, reflection, closed, isTextured, hasColorTexture, material, normalMap }) {
-        const key = `${shading} ${reflection} ${closed} ${hasColorTexture} ${material} ${normalMap}`;
+    lighting({ shading, reflection, closed, isTextured, material, normalMap }) {
+        const key = `${shading} ${reflection} ${closed} ${material} ${normalMap}`;
         if (!this.programs.has(key)) {
             const { shaders, shading_models, reflection_models } = this.scene;
             const s = shading_models[shading], r = reflection_models[reflection];
             const common =
                 (closed ? "" : "#define TWO_SIDED\n") +
-                (material === null ? "" : "#define TEXTURED_MATERIAL\n") + (hasColorTexture ? "#define TEXTURED_COLOR\n" : "") +
+                (material === null ? "" : "#define TEXTURED_MATERIAL\n") +
                 [shaders.prelude, isTextured ? shaders.texture : "", shaders.lights, r.glsl, s.glsl,
                     material === null ? "" : shaders.materials[material],
                     normalMap === null ? "" : shaders.normal_maps[normalMap], ""].join("\n");

@@ -91,13 +91,14 @@ def with_textures(scene, color, material=""):
     textured = []
     for table in re.split(r"(?m)^(?=\[)", scene):
         if table.startswith("[[object]]"):
-            table = f"{table.rstrip()}\n{color}\n" + (f"[object.material]\n{material}\n" if material else "")
+            plain = re.sub(r"(?m)^color *=.*\n", "", table)
+            table = f"{plain.rstrip()}\n{color}\n" + (f"[object.material]\n{material}\n" if material else "")
         if not (material and table.startswith("[object.material]")):
             textured.append(table)
     return "".join(textured)
 
 
-TEXTURE = 'color_texture = "texture.ppm"'
+TEXTURE = 'color = { texture = "texture.ppm" }'
 PARAMETERS = {"ka": 'scale = 0.1', "kd": 'scale = 0.7', "ks": 'scale = 0.3', "shininess": "scale = 60, offset = 2"}
 MATERIAL = "\n".join(f'{name} = {{ texture = "{name}.ppm", {mapping} }}' for name, mapping in PARAMETERS.items())
 for name in PARAMETERS:

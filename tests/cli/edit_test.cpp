@@ -162,12 +162,12 @@ TEST_CASE("candela edit writes the path of a file relative to the scene's file, 
     const fs::path file = folder.write("below/scene.toml", k_scene);
     const Folder::Environment cache{{"XDG_CACHE_HOME", (folder / "cache").string()}};
     expect(folder.run("edit below/scene.toml --change reflection.model=matt.kernel --change "
-                      "object.0.color_texture=wood.ppm",
+                      "object.0.color={texture=\"wood.ppm\"}",
                       {}, cache),
            0);
     const std::string text = read_file(file);
     CHECK(holds(text, "model = \"../matt.kernel\"\n"));
-    CHECK(holds(text, "color_texture = \"../wood.ppm\"\n"));
+    CHECK(holds(text, "texture = \"../wood.ppm\""));
     // A name that stands for a file in both folders means the same one as before.
     fs::copy_file(folder / "matt.kernel", folder / "below/matt.kernel");
     expect(folder.run("edit below/scene.toml --change reflection.model=matt.kernel", {}, cache), 0);

@@ -173,6 +173,29 @@ TEST_CASE("a map of metalness and roughness gives each point its own, wherever i
     }
 }
 
+TEST_CASE("a map of the base colour is placed by its transform, and multiplied by the factor") {
+    const Picture picture;
+    const std::array<double, 4> factor{0.9, 0.7, 0.5, 1};
+    const double rotation = 0.4;
+    GltfSquare file;
+    file.pbr() = {{"metallicFactor", 0},
+                  {"baseColorFactor", factor},
+                  {"baseColorTexture", file.texture(picture.file())}};
+    file.pbr()["baseColorTexture"]["extensions"]["KHR_texture_transform"] = {
+        {"scale", {0.5, 1.5}}, {"rotation", rotation}, {"offset", {0.3, -0.2}}};
+    // Without the mirrored part, only a matt surface is left.
+    file.material()["extensions"]["KHR_materials_specular"]["specularFactor"] = 0;
+    const Imported imported = import(file);
+    CHECK_FALSE(holds(imported.scene, "# Note"));
+    require_picture(imported, [&](double u, double v) {
+        const double c = std::cos(rotation), s = std::sin(rotation);
+        const Color texel =
+            picture.at(c * 0.5 * u + s * 1.5 * v + 0.3, -s * 0.5 * u + c * 1.5 * v - 0.2, true, true);
+        return std::array<double, 3>{0.6 * factor[0] * texel[0], 0.6 * factor[1] * texel[1],
+                                     0.6 * factor[2] * texel[2]};
+    });
+}
+
 TEST_CASE("maps of KHR_materials_specular and clearcoat are read from their channels") {
     const Picture picture;
     GltfSquare file;

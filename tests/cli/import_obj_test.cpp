@@ -224,6 +224,27 @@ TEST_CASE("pictures of roughness and metalness in MTL files become textures of t
     CHECK(holds(broken.err, "the texture 'no.ppm' of material 'm' does not exist"));
 }
 
+TEST_CASE(
+    "maps of MTL files are where -s, which scales coordinates, and -o, which then moves them, put them") {
+    const Folder folder;
+    // Four columns. Of u = 0.25 u + 0.5, the square shows the third alone.
+    folder.write("p.ppm", "P6\n4 1\n255\n" + std::string(6, '\0') + "\xff" + std::string(5, '\0'));
+    folder.write(
+        "a.mtl",
+        "newmtl m\nKd 1 1 1\nmap_Kd -clamp on -s .25 1 1 -o .5 p.ppm\nKe 1 1 1\nmap_Ke -o 0 -2 p.ppm\n");
+    folder.write("a.obj", square("a.mtl", "m"));
+    const CommandResult imported = succeeded(folder.run("import a.obj -o -"));
+    CHECK(holds(
+        imported.out,
+        "color               = { texture = \"p.ppm\", wrap = \"clamp\", transform = { scale = [0.25, 1.0], "
+        "rotation = 0.0, offset = [0.5, 0.0] } }\n"));
+    CHECK(holds(imported.out,
+                "emission  = { texture = \"p.ppm\", transform = { scale = [1.0, 1.0], rotation = 0.0, "
+                "offset = [0.0, -2.0] } }\n"));
+    CHECK_FALSE(holds(imported.out, "# Note"));
+    CHECK(is_red(rendered(folder, "a.obj").image.middle()));
+}
+
 TEST_CASE("norm is a normal map, and so is a bump map of normals; heights have no unit") {
     const Folder folder;
     folder.write("n.ppm", "P6\n2 1\n255\n\x70\x80\xf0\x90\x80\xf0");
@@ -315,7 +336,7 @@ TEST_CASE("a broken or empty picture becomes a note and a plain colour on import
         folder.write("a.toml",
                      k_start + k_models +
                          fmt::format("[[object]]\ntype = \"mesh\"\nfile = \"a.obj\"\nencloses = true\n"
-                                     "color_texture = \"{}\"\n",
+                                     "color = {{ texture = \"{}\" }}\n",
                                      name));
         const CommandResult scene = folder.run("render a.toml -o b.ppm");
         CHECK(scene.exit_code != 0);

@@ -168,7 +168,7 @@ TEST_CASE("import reports missing libraries, materials and textures, and goes on
     CommandResult result = expect(folder.run("render two.obj -o a.ppm"), 0,
                                   {"2 materials are not in any material library, the first of them 'left'"});
     folder.write("two.mtl",
-                 "newmtl left\nmap_Kd -s 2 2 2 -clamp on no such.png\nnewmtl right side\nmap_Kd a.xyz\n");
+                 "newmtl left\nmap_Kd -t 2 2 2 -clamp on no such.png\nnewmtl right side\nmap_Kd a.xyz\n");
     folder.write("a.xyz", "what?");
     result = folder.run("render two.obj -o a.ppm");
     CHECK(result.exit_code == 0);
@@ -176,7 +176,7 @@ TEST_CASE("import reports missing libraries, materials and textures, and goes on
     CHECK(
         holds(result.err,
               "the texture 'a.xyz' of material 'right side' is left out: no image plugin reads its format"));
-    CHECK(holds(result.err, "the offset and scale of textures are left out"));
+    CHECK(holds(result.err, "the turbulence and the range of textures are left out"));
 }
 
 TEST_CASE("materials whose names are not UTF-8 are distinguished by their numbers") {
@@ -200,7 +200,7 @@ TEST_CASE("files outside its folder that an OBJ file names are not opened") {
         expect(folder.run("import model/two.obj -o -"), 0,
                {"secret.mtl' is outside the model's folder",
                 "the texture '../secret.ppm' of material 'left' is outside the model's folder"});
-    CHECK_FALSE(holds(result.out, "color_texture"));
+    CHECK_FALSE(holds(result.out, "texture ="));
 }
 
 TEST_CASE("an invalid or hostile MTL file leaves the model unchanged") {
@@ -257,7 +257,7 @@ TEST_CASE("a texture inside a glTF file is written next to the scene, and render
     const CommandResult import = succeeded(folder.run("import a.gltf"));
     CHECK(read_file(folder / "a_textures" / "leaf_0.png") == folder.read("green.png"));
     CHECK(holds(folder.read("a.toml"),
-                "color_texture       = \"a_textures/leaf_0.png\"\ncolor_texture_wrap  = \"clamp\"\n"));
+                "color               = { texture = \"a_textures/leaf_0.png\", wrap = \"clamp\" }\n"));
     succeeded(folder.run("render a.toml -o b.ppm"));
     succeeded(folder.run("render a.gltf -o a.ppm"));
     CHECK(folder.read("a.ppm") == folder.read("b.ppm"));

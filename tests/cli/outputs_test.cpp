@@ -27,7 +27,7 @@ Folder folder_with_scene() {
                    "include = [\"part.ppm\"]\n" + k_start + k_models + k_animation + image_table(8, 8) +
                        environment +
                        "[[object]]\nname = \"mesh\"\ntype = \"mesh\"\nfile = \"model.gltf\"\n"
-                       "color_texture = \"texture.ppm\"\n");
+                       "color = { texture = \"texture.ppm\" }\n");
     d.write("part.ppm", "[[light]]\ntype = \"ambient\"\n");
     for (const char* const name : {"sky.ppm", "texture.ppm", "texture.normal.ppm", "frame1.ppm"})
         d.write(name, "P6\n1 1\n255\nabc");
@@ -129,13 +129,15 @@ TEST_CASE("no verb overwrites a file that it reads, by whatever name or link") {
 TEST_CASE("files that a verb names itself, such as terms and frames, do not overwrite inputs either") {
     const Folder d = folder_with_scene();
     const std::map<std::string, std::string> before = contents_of(d);
-    const std::string set = "object.mesh.color_texture=";
+    const auto textured = [](const std::string& file) {
+        return "object.mesh.color={ texture = \"" + file + "\" }";
+    };
     for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
              {"render", "scene.ppm", "-o", "texture.ppm", "--terms", "normal", "--set",
-              set + "texture.normal.ppm"},
-             {"animate", "scene.ppm", "-o", "frame%d.ppm", "--set", set + "frame1.ppm"},
+              textured("texture.normal.ppm")},
+             {"animate", "scene.ppm", "-o", "frame%d.ppm", "--set", textured("frame1.ppm")},
              {"submit", "scene.ppm", "-o", "frame%d.ppm", "--engine", "print", "--set",
-              set + "frame1.ppm"}}) {
+              textured("frame1.ppm")}}) {
         const CommandResult result = d.run_words(words);
         INFO(words[0] << ": " << result.err);
         CHECK(result.exit_code == 2);

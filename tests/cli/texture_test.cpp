@@ -30,17 +30,23 @@ CommandResult render(const std::string& texture, const Folder& directory, const 
 TEST_CASE("mistakes in a texture are reported at its place") {
     const Folder d({{"wood.ppm", k_image}});
     REQUIRE(::mkfifo((d / "pipe.ppm").c_str(), 0600) == 0);
-    expect(render("color_texture = \"wool.ppm\"", d), 3,
-           {"scene.toml:11:17: error: 'wool.ppm' does not exist", "did you mean 'wood.ppm'?"});
-    expect(render("color_texture = \"\"", d), 3, {"scene.toml:11:17: error: 'color_texture' is empty"});
-    expect(render("color_texture = \".\"", d), 3,
-           {"scene.toml:11:17: error: '.' is a directory, not a file"});
-    expect(render("color_texture = \"pipe.ppm\"", d), 3,
-           {"scene.toml:11:17: error: 'pipe.ppm' is not a regular file"});
-    expect(render("color_texture = 3", d), 3, {"scene.toml:11:17: error: 'color_texture' is the integer 3"});
-    expect(render("color_texture = \"wood.ppm\"\ncolor_texture_wrap = \"mirror\"", d), 3,
-           {"scene.toml:12:22: error: 'color_texture_wrap': \"mirror\" is not one of 'repeat', 'clamp'"});
-    expect(render("color_texture = \"wood.ppm\"", d, "cube"), 0, {});
+    expect(render("color = { texture = \"wool.ppm\" }", d), 3,
+           {"scene.toml:11:21: error: 'wool.ppm' does not exist", "did you mean 'wood.ppm'?"});
+    expect(render("color = { texture = \"\" }", d), 3, {"scene.toml:11:21: error: 'texture' is empty"});
+    expect(render("color = { texture = \".\" }", d), 3,
+           {"scene.toml:11:21: error: '.' is a directory, not a file"});
+    expect(render("color = { texture = \"pipe.ppm\" }", d), 3,
+           {"scene.toml:11:21: error: 'pipe.ppm' is not a regular file"});
+    expect(render("color = { texture = 3 }", d), 3, {"scene.toml:11:21: error: 'texture' is the integer 3"});
+    expect(render("color = {}", d), 3,
+           {"scene.toml:11:9: error: 'color' in [[object]] 'ring' has no 'texture'"});
+    expect(render("color = \"wood.ppm\"", d), 3,
+           {"scene.toml:11:9: error: 'color' is a string, \"wood.ppm\""});
+    expect(render("color_texture = \"wood.ppm\"", d), 3,
+           {"scene.toml:11:1: error: unknown key 'color_texture'", "write color = { texture = \"a.png\" }"});
+    expect(render("color = { texture = \"wood.ppm\", wrap = \"mirror\" }", d), 3,
+           {"scene.toml:11:40: error: 'wrap': \"mirror\" is not one of 'repeat', 'clamp'"});
+    expect(render("color = { texture = \"wood.ppm\" }", d, "cube"), 0, {});
     CHECK(d.has("out.ppm"));
 }
 
@@ -55,8 +61,8 @@ TEST_CASE("a texture that cannot be read as a picture is one failure that names 
     succeeded(run_candela({"render", "--width=16", "--height=8", "-o", (d / "whole.png").string()}));
     const std::string png = d.read("whole.png");
     const auto refused = [&](const std::string& file, const std::string& reason) {
-        const CommandResult result = render("color_texture = \"" + file + "\"", d);
-        expect(result, 1, {"scene.toml:11:17: error: object 'ring': ", file + "' " + reason});
+        const CommandResult result = render("color = { texture = \"" + file + "\" }", d);
+        expect(result, 1, {"scene.toml:11:21: error: 'color' of object 'ring': ", file + "' " + reason});
         CHECK(result.err.find("error:") == result.err.rfind("error:"));
     };
     refused("wood.txt", "has a format that no image plugin reads");
@@ -70,7 +76,7 @@ TEST_CASE("a texture that cannot be read as a picture is one failure that names 
         refused("cut.png", "cannot be read as a picture: it is cut off");
     }
     CHECK_FALSE(d.has("out.ppm"));
-    expect(render("color_texture = \"whole.png\"", d), 0, {});
+    expect(render("color = { texture = \"whole.png\" }", d), 0, {});
 }
 
 TEST_CASE("a picture of a few bytes that claims 400 million pixels does not take memory for them") {
@@ -85,7 +91,7 @@ TEST_CASE("a picture of a few bytes that claims 400 million pixels does not take
                              side + zero + std::string("\1\0\x18\0", 4) + std::string(24, '\0') + "abc");
     for (const char* const file : {"large.ppm", "large.pfm", "large.tga", "large.bmp"}) {
         INFO(file);
-        expect(render("color_texture = \"" + std::string(file) + "\"", d), 1,
+        expect(render("color = { texture = \"" + std::string(file) + "\" }", d), 1,
                {"cannot be read as a picture: it "});
     }
     rusage usage{};

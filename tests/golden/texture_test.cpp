@@ -33,18 +33,19 @@ std::string scene(int size, const std::string& object, const char* color_managem
         "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nprojection = \"orthographic\"\nheight = 2\n"
         "[image]\nwidth = {0}\nheight = {0}\ncolor_management = \"{2}\"\n[shading]\nmodel = \"phong\"\n"
         "[reflection]\nmodel = \"lambert\"\n[[light]]\ntype = \"directional\"\ndirection = [0, 0, -1]\n"
-        "[[object]]\nname = \"square\"\ntype = \"mesh\"\nfile = \"square.obj\"\ncolor = [255, 255, "
-        "255]\n{1}\n"
+        "[[object]]\nname = \"square\"\ntype = \"mesh\"\nfile = \"square.obj\"\n{1}\n"
         "[object.material]\nka = 0\nkd = 1\n",
         size, object, color_management);
 }
 
-Image textured(const std::string& texture, int size, const std::string& more = "",
-               const char* color_management = "none") {
+/// `placed`: the other keys of the texture.
+Image textured(const std::string& texture, int size, const std::string& placed = "",
+               const std::string& more = "", const char* color_management = "none") {
     const auto folder = scratch_directory();
     write_file(folder / "square.obj", k_square);
     write_file(folder / "texture.ppm", texture);
-    return render_floats(folder, scene(size, "color_texture = \"texture.ppm\"\n" + more, color_management));
+    const std::string color = "color = { texture = \"texture.ppm\"" + placed + " }\n";
+    return render_floats(folder, scene(size, color + more, color_management));
 }
 
 bool is_about(float value, double expected) { return std::abs(static_cast<double>(value) - expected) < 2e-4; }
@@ -101,10 +102,10 @@ TEST_CASE("golden: a minified ramp shows the means of the texels in each pixel")
 
 TEST_CASE("golden: the colours of a texture are decoded like those of objects") {
     // 188 is 0.502886 in linear light (IEC 61966-2-1).
-    const Image image = textured(grey_ppm(1, 1, {188}), 4, "", "srgb");
+    const Image image = textured(grey_ppm(1, 1, {188}), 4, "", "", "srgb");
     CHECK(is_about(image.at(2, 2).x, std::pow((188.0 / 255 + 0.055) / 1.055, 2.4)));
-    SECTION("and multiplied by the object's") {
-        const Image product = textured(grey_ppm(1, 1, {188}), 4, "", "none");
+    SECTION("unless the scene's are not") {
+        const Image product = textured(grey_ppm(1, 1, {188}), 4, "", "", "none");
         CHECK(is_about(product.at(2, 2).x, 188.0 / 255));
     }
 }
@@ -124,8 +125,8 @@ TEST_CASE("golden: in perspective the mip level follows the footprint of the pix
         "[observer]\nposition = [0, 1, 90]\nlook_at = [0, 1, 0]\nfov = 60\n"
         "[image]\nwidth = 200\nheight = 200\ncolor_management = \"none\"\n[shading]\nmodel = \"phong\"\n"
         "[reflection]\nmodel = \"lambert\"\n[[light]]\ntype = \"directional\"\ndirection = [0, -1, 0]\n"
-        "[[object]]\ntype = \"mesh\"\nfile = \"floor.obj\"\ncolor = [255, 255, 255]\n"
-        "color_texture = \"texture.ppm\"\n[object.material]\nka = 0\nkd = 1\n");
+        "[[object]]\ntype = \"mesh\"\nfile = \"floor.obj\"\n"
+        "color = { texture = \"texture.ppm\" }\n[object.material]\nka = 0\nkd = 1\n");
     const auto contrast = [&](int row) {
         float low = 1, high = 0;
         for (int x = 60; x < 140; ++x) {
@@ -152,9 +153,10 @@ TEST_CASE(
         "version = 1\n[observer]\nposition = [0.3, 1.6, 4.2]\nlook_at = [0, 0, 0]\n[image]\nwidth = 333\n"
         "height = 217\nsamples = 4\n[shading]\nmodel = \"phong\"\n[reflection]\nmodel = \"ggx\"\n"
         "[[light]]\ntype = \"point\"\nposition = [-2, 3, 3]\nintensity = 14\n[[object]]\ntype = \"teapot\"\n"
-        "color_texture = \"texture.ppm\"\n[[object]]\ntype = \"sphere\"\nposition = [1.6, 0, 0.4]\nradius = "
+        "color = { texture = \"texture.ppm\" }\n[[object]]\ntype = \"sphere\"\nposition = [1.6, 0, "
+        "0.4]\nradius = "
         "0.5\n"
-        "color_texture = \"texture.ppm\"\ncolor_texture_wrap = \"clamp\"\nshading = \"gouraud\"\n";
+        "color = { texture = \"texture.ppm\", wrap = \"clamp\" }\nshading = \"gouraud\"\n";
     write_file(folder / "scene.toml", text);
     std::string first;
     for (const char* const threads : {"1", "2", "5"}) {
@@ -172,12 +174,10 @@ TEST_CASE(
     for (int y = 0; y < 3; ++y)
         for (int x = 0; x < 3; ++x) texels.push_back(100 * x + 20 * y);
     // The centroid of the lower right triangle is (2/3, 1/3): halfway between texels 1 and 2.
-    const Image flat =
-        textured(grey_ppm(3, 3, texels), 8, "shading = \"flat\"\ncolor_texture_wrap = \"clamp\"");
+    const Image flat = textured(grey_ppm(3, 3, texels), 8, ", wrap = \"clamp\"", "shading = \"flat\"");
     CHECK(is_about(flat.at(6, 6).x, (100 * 1.5 + 20 * 1.5) / 255));
     CHECK(is_about(flat.at(3, 7).x, (100 * 1.5 + 20 * 1.5) / 255));
-    const Image gouraud =
-        textured(grey_ppm(3, 3, texels), 8, "shading = \"gouraud\"\ncolor_texture_wrap = \"clamp\"");
+    const Image gouraud = textured(grey_ppm(3, 3, texels), 8, ", wrap = \"clamp\"", "shading = \"gouraud\"");
     // Corner values 0 (top left), 200 (top right), 40 (bottom left), 240 (bottom right): linear over the
     // square.
     for (int y = 0; y < 8; ++y)

@@ -134,9 +134,9 @@ light = [
     {type = "directional", direction = [-0.3, -1, -0.6], intensity = 0.6},
 ]
 object = [
-    {name = "floor", type = "mesh", file = "floor.obj", color_texture = "picture.ppm"},
-    {name = "ball", type = "sphere", radius = 0.8, position = [0, 0.3, 0], color_texture = "picture.ppm"},
-    {name = "wall", type = "mesh", file = "floor.obj", color_texture = "picture.ppm", color_texture_wrap = "clamp", rotation = [90, 0, 0], scale = [0.2, 0.2, 0.2], position = [0, -0.3, -2.5]},
+    {name = "floor", type = "mesh", file = "floor.obj", color = {texture = "picture.ppm"}},
+    {name = "ball", type = "sphere", radius = 0.8, position = [0, 0.3, 0], color = {texture = "picture.ppm"}},
+    {name = "wall", type = "mesh", file = "floor.obj", color = {texture = "picture.ppm", wrap = "clamp"}, rotation = [90, 0, 0], scale = [0.2, 0.2, 0.2], position = [0, -0.3, -2.5]},
 ]
 )";
 constexpr const char* k_floor =

@@ -5,6 +5,7 @@ from a millimetre to a kilometre. Each scene has an exact variant, without what 
 
 import math
 import random
+import re
 import typing
 
 import texture_scenes
@@ -153,8 +154,12 @@ class Stage:
         kind = "point" if self.is_exact else "lantern.kernel"
         return f'[[light]]\ntype = "{kind}"\nposition = {list(position)}\nintensity = {intensity}\n'
 
-    def waves(self):
-        return "" if self.is_exact else 'color_texture = "waves.ppm"\n'
+    def waved(self, thing):
+        """The thing with a texture that its colour multiplies, in sRGB."""
+        def textured(match):
+            scale = [round((int(number) / 255) ** 2.2, 3) for number in match[1].split(",")]
+            return f'color = {{ texture = "waves.ppm", scale = {scale} }}\n'
+        return thing if self.is_exact else re.sub(r"(?m)^color = \[(.*)\]\n", textured, thing)
 
     def thing(self, shape, color, shading="phong", reflection="phong", receives=True, more=""):
         shading = shading if shading in self.shadings else "phong"
@@ -327,8 +332,8 @@ SCENES = [
           s.open_mesh("plant.obj", (0.3, 0.02, 0.2), 30, (120, 210, 110)) + s.ball(-1.4, 0.2, more="scale = [1, 0.5, 1.6]\n") +
           s.box(1.5, 0.9, 0.25, more="scale = [0.3, 0.6, 1.3]\n"), encoding="none"),
     Scene("textures",
-          lambda s: SEEN + s.ambient() + PANEL + POINT.replace("11", "4") + s.floor("fine.obj", more=s.waves()) +
-          s.ball(0, 0.4, more=s.waves()) + s.box(-1.3, 0.1) + s.ring(1.2, -0.5)),
+          lambda s: SEEN + s.ambient() + PANEL + POINT.replace("11", "4") + s.waved(s.floor("fine.obj")) +
+          s.waved(s.ball(0, 0.4)) + s.box(-1.3, 0.1) + s.ring(1.2, -0.5)),
     Scene("everything, seen in perspective", lambda s: mixed(s, 0)),
     Scene("everything, seen in parallel", lambda s: mixed(s, 1), pattern="fixed"),
     Scene("everything, without encoding", lambda s: mixed(s, 2), encoding="none"),

@@ -84,6 +84,8 @@ NORMALS = [
     'bump_map = { texture = "deep.ppm", height = 0.1, wrap = "clamp" }\n',
 ]
 
+PLACED = ['encoding = "auto"', "transform = { rotation = 25 }", "transform = { scale = [1.5, 0.8], offset = [0.1, 0.3] }"]
+
 SHAPES = [
     'type = "mesh"\nfile = "cylinder.obj"\nscale = [0.75, 0.75, 0.75]\n',
     'type = "sphere"\nradius = 0.45\nsegments = 24\nrotation = [20, 40, 0]\n',
@@ -103,12 +105,12 @@ def scene_text(reflections, number):
             '[[light]]\ntype = "ambient"\ncolor = [120, 120, 130]\n[[light]]\ntype = "directional"\ndirection = [-0.4, -1, -0.9]\nintensity = 0.6\n'
             '[[light]]\ntype = "point"\nposition = [-1.5, 3, 3]\nintensity = 9\nattenuation = "offset-linear"\nattenuation_offset = 1.5\n'
             '[[object]]\nname = "floor"\ntype = "mesh"\nfile = "floor.obj"\nposition = [0, -1.2, 0]\nshading = "phong"\nreflection = "lambert"\n'
-            f'color_texture = "{"deep" if number == 3 else "fine"}.ppm"\ncolor = [255, 250, 240]\n')
+            f'color = {{ texture = "{"deep" if number == 3 else "fine"}.ppm", scale = [1, 0.96, 0.87] }}\n')
     for row, reflection in enumerate(share):
         for column, shading in enumerate(SHADINGS):
             place = number + row + column
             picture = ["fine", "odd", "deep"][(row + column) % 3]
             text += (f'[[object]]\nposition = [{1.3 * (column - 1):.2f}, {1.35 - 1.05 * row:.2f}, {-0.4 * (row == 0):.2f}]\nshading = "{shading}"\n'
-                     f'reflection = "{reflection}"\ncolor = [{230 - 20 * row}, 240, {200 + 15 * column}]\ncolor_texture = "{picture}.ppm"\n'
-                     f'color_texture_wrap = {json.dumps(["repeat", "clamp"][(place // 2) % 2])}\n' + NORMALS[(number + row) % len(NORMALS)] + SHAPES[place % len(SHAPES)])
+                     f'reflection = "{reflection}"\ncolor = {{ texture = "{picture}.ppm", scale = [{0.8 - 0.14 * row:.2f}, 0.87, {0.58 + 0.1 * column:.2f}], '
+                     f'wrap = {json.dumps(["repeat", "clamp"][(place // 2) % 2])}, {PLACED[place % len(PLACED)]} }}\n' + NORMALS[(number + row) % len(NORMALS)] + SHAPES[place % len(SHAPES)])
     return text

@@ -57,7 +57,7 @@ std::string scene_with(const std::string& images) {
     for (const char image : images)
         objects += fmt::format(
             "[[object]]\ntype = \"mesh\"\nfile = \"square.obj\"\nappearance_imported = true\n"
-            "position = [{}, 0, 0]\ncolor_texture = \"{}.ppm\"\n",
+            "position = [{}, 0, 0]\ncolor = {{ texture = \"{}.ppm\" }}\n",
             3 * x++, image);
     return "version = 1\n[observer]\nposition = [0, 0, 6]\nlook_at = [0, 0, 0]\n[room]\nwidth = 50\nheight = "
            "50\ndepth = 50\n[image]\nwidth = 48\nheight "
@@ -135,7 +135,8 @@ TEST_CASE("verify: a C++ program has the textures of parameters, for each rate a
         "\"soft.ppm\", channel = \"g\", scale = -0.5, offset = 0.9 }\n"
         "[[object]]\nname = \"ring\"\ntype = \"torus\"\nposition = [1.2, 0, 0]\nrotation = [60, 20, "
         "0]\nshading = "
-        "\"gouraud\"\nreflection = \"phong\"\ncolor_texture = \"soft.ppm\"\n[object.material]\nkd = { "
+        "\"gouraud\"\nreflection = \"phong\"\ncolor = { texture = \"soft.ppm\", scale = [0.9, 1, 0.8], "
+        "transform = { rotation = 30 } }\n[object.material]\nkd = { "
         "texture = "
         "\"soft.ppm\", wrap = \"clamp\", scale = [1, 0.7, 0.2] }\nshininess = { texture = \"soft.ppm\", "
         "channel = "

@@ -108,7 +108,8 @@ TEST_CASE("mesh_io: an OBJ file's materials have the same numbers with and witho
 TEST_CASE(
     "mesh_io: an MTL file's materials are in its own terms, and the last description of a name counts") {
     const mesh_io::MaterialLibrary library = mesh_io::read_mtl(
-        "Kd 1 1 1\nnewmtl a\nKd 1 0 0\nNs 9\nnewmtl b # blue\nkd 0.5\nmap_Kd -s 1 2 -clamp on my wood.png\n"
+        "Kd 1 1 1\nnewmtl a\nKd 1 0 0\nNs 9\nnewmtl b # blue\nkd 0.5\nmap_Kd -s 1 2 -o -.5 -clamp on my "
+        "wood.png\n"
         "newmtl a\nKs +0.5 .25 1e-400\nKd nan 0 0\nd 0.5\nd 0.5\n");
     REQUIRE(library.materials.size() == 2);
     const mesh_io::MtlMaterial &a = library.materials[0], &b = library.materials[1];
@@ -118,10 +119,11 @@ TEST_CASE(
     CHECK(a.shininess == 0);
     CHECK(b.name == "b # blue");
     CHECK(b.kd == std::vector<double>{0.5, 0.5, 0.5});
-    CHECK(b.texture == "my wood.png");
-    CHECK(b.clamps);
-    CHECK(library.notes == std::vector<std::string>{"the offset and scale of textures are left out",
-                                                    "material colours that are not numbers are left out",
+    CHECK(b.color_map.file == "my wood.png");
+    CHECK(b.color_map.clamps);
+    CHECK(b.color_map.scale == std::array<double, 2>{1, 2});
+    CHECK(b.color_map.offset == std::array<double, 2>{-0.5, 0});
+    CHECK(library.notes == std::vector<std::string>{"material colours that are not numbers are left out",
                                                     "the opacity of materials is left out; they are opaque"});
     CHECK_THROWS_AS(mesh_io::read_mtl("\xff\xfen"), mesh_io::BadFile);
 }

@@ -198,8 +198,13 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.objects[1].transform.scale.x += 1; },
         [](Scene& s) { s.objects[1].color.x += 1; },
         [](Scene& s) { s.objects[1].encloses = true; },
-        [](Scene& s) { s.objects[1].color_texture = std::string(CANDELA_TEST_SOURCE) + "/LICENSE"; },
-        [](Scene& s) { s.objects[1].color_texture_wrap = candela::TextureWrap::clamp; },
+        [](Scene& s) {
+            s.objects[1].color = {255, 255, 255};
+            s.objects[1].color_texture = {.parameter = "color",
+                                          .file = std::string(CANDELA_TEST_SOURCE) + "/LICENSE",
+                                          .wrap = candela::TextureWrap::clamp,
+                                          .transform = {.rotation = 45}};
+        },
         [](Scene& s) {
             s.objects[1].textures.push_back(
                 {.parameter = "kd",

@@ -46,14 +46,26 @@ Vec3 texel(const MipMap& map, std::size_t level, int x, int y) {
             static_cast<float>(map.texels()[i + 2])};
 }
 
+/// The values, of 1, at up to k_batch_size points.
+std::vector<Vec3> values_at(const MipMap& map, TextureWrap wrap, std::size_t count,
+                            const candela::TextureCoordinates& at) {
+    const std::shared_ptr<const MipMap> picture(&map, [](const MipMap*) {});
+    candela::MaterialTextures textures{.textures = {{.picture = picture, .wrap = wrap}}};
+    for (std::size_t c = 0; c < 3; ++c) textures.numbers.push_back({.texel_channel = c});
+    std::vector<candela::AlignedVector<float>> channels(3, candela::AlignedVector<float>(count));
+    candela::evaluate(textures, count, at, channels);
+    std::vector<Vec3> values;
+    for (std::size_t i = 0; i < count; ++i)
+        values.push_back({channels[0][i], channels[1][i], channels[2][i]});
+    return values;
+}
+
 /// The value at (u, v), of 65535, where a pixel is `texels` of the picture wide and high.
 Vec3 seen(const MipMap& map, float u, float v, TextureWrap wrap = TextureWrap::repeat, float texels = 0) {
     const float dudx = texels / static_cast<float>(map.width()),
                 dvdy = texels / static_cast<float>(map.height());
     constexpr float k_zero = 0;
-    Vec3 color{1, 1, 1};
-    map.multiply(wrap, 1, {{&u, &v}, {&dudx, &k_zero}, {&k_zero, &dvdy}}, {&color.x, &color.y, &color.z});
-    return 65535 * color;
+    return 65535 * values_at(map, wrap, 1, {{&u, &v}, {&dudx, &k_zero}, {&k_zero, &dvdy}})[0];
 }
 
 bool is_near(Vec3 a, Vec3 b, float tolerance = 0.02f) { return candela::length(a - b) < tolerance; }
@@ -168,33 +180,27 @@ TEST_CASE("texture: the longer side of a footprint decides, in any orientation")
     const float u = u_of(map, 2.5), v = v_of(map, 2.5), zero = 0;
     const float two = 2.0f / 8, diagonal = 2.0f / 8 / std::sqrt(2.0f);
     const auto with = [&](std::array<float, 4> d) {
-        Vec3 color{1, 1, 1};
-        map.multiply(TextureWrap::repeat, 1, {{&u, &v}, {&d[0], &d[1]}, {&d[2], &d[3]}},
-                     {&color.x, &color.y, &color.z});
-        return 65535 * color;
+        const candela::TextureCoordinates at{{&u, &v}, {&d[0], &d[1]}, {&d[2], &d[3]}};
+        return 65535 * values_at(map, TextureWrap::repeat, 1, at)[0];
     };
     CHECK(is_near(with({two, zero, zero, zero}), {2500, 2500, 0}));
     CHECK(is_near(with({zero, zero, zero, two}), {2500, 2500, 0}));
     CHECK(is_near(with({diagonal, -diagonal, zero, zero}), {2500, 2500, 0}, 0.5f));
 }
 
-TEST_CASE("texture: it multiplies the existing values, point by point, for any number of points") {
+TEST_CASE("texture: it is looked up point by point, for any number of points") {
     const MipMap map = ramp(8, 8000);
-    constexpr std::size_t k_count = 1000;
-    std::vector<float> u(k_count), v(k_count, v_of(map, 1)), zero(k_count), r(k_count), g(k_count, 0.5f),
-        b(k_count, 1);
-    for (std::size_t i = 0; i < k_count; ++i) {
-        u[i] = u_of(map, static_cast<double>(i % 8));
-        r[i] = static_cast<float>(i) / k_count;
-    }
+    std::vector<float> u(candela::k_batch_size), v(candela::k_batch_size, v_of(map, 1)),
+        zero(candela::k_batch_size);
+    for (std::size_t i = 0; i < u.size(); ++i) u[i] = u_of(map, static_cast<double>(i % 8));
     const candela::ConstVec2Span none{zero.data(), zero.data()};
-    map.multiply(TextureWrap::repeat, k_count, {{u.data(), v.data()}, none, none},
-                 {r.data(), g.data(), b.data()});
-    for (std::size_t i = 0; i < k_count; ++i) {
-        const double red = static_cast<double>(i) / k_count * 8000 * static_cast<double>(i % 8) / 65535;
-        REQUIRE(r[i] == Approx(red).margin(1e-6));
-        REQUIRE(g[i] == Approx(0.5 * 8000 / 65535).margin(1e-6));
-        REQUIRE(b[i] == 0);
+    for (std::size_t count = 1; count <= u.size(); ++count) {
+        const auto values = values_at(map, TextureWrap::repeat, count, {{u.data(), v.data()}, none, none});
+        for (std::size_t i = 0; i < count; ++i) {
+            REQUIRE(values[i].x == Approx(8000 * static_cast<double>(i % 8) / 65535).margin(1e-6));
+            REQUIRE(values[i].y == Approx(8000.0 / 65535).margin(1e-6));
+            REQUIRE(values[i].z == 0);
+        }
     }
 }
 

@@ -17,8 +17,6 @@ namespace importing::gltf {
 
 namespace {
 
-double rounded(double x) { return std::round(1e4 * x) / 1e4; }
-
 /// The factor of that name; all ones by default.
 std::vector<double> factor_of(const Json& object, const char* name, std::size_t count) {
     std::vector<double> factor = numbers(object, name, count);
@@ -29,9 +27,7 @@ std::vector<double> factor_of(const Json& object, const char* name, std::size_t 
 
 /// A parameter, in four digits; one number if it is grey.
 void add(Material& to, const char* parameter, std::vector<double> value) {
-    for (double& x : value) x = rounded(x);
-    if (value.size() == 3 && value[0] == value[1] && value[1] == value[2]) value.resize(1);
-    to.values.emplace_back(parameter, std::move(value));
+    to.values.emplace_back(parameter, shortened(std::move(value)));
 }
 
 /// The reflectance of a dielectric at normal incidence, its largest channel.
@@ -67,7 +63,7 @@ Material Materials::unlit(const Json& from, const std::string& name) {
     const Json& pbr = object_of(from, "pbrMetallicRoughness");
     const std::vector<double> base = factor_of(pbr, "baseColorFactor", 4);
     Material result{.name = {}, .reflection = "unlit", .color = encoded(base)};
-    auto* const image = textures_.show(pbr, "baseColorTexture", name, result);
+    auto* const image = textures_.show(pbr, "baseColorTexture", name, base, result);
     textures_.cut_out(from, base[3], image, result);
     return result;
 }
@@ -78,7 +74,7 @@ Material Materials::metallic_roughness(const Json& from, const std::string& name
     const double metallic = std::clamp(number(pbr, "metallicFactor", 1), 0.0, 1.0);
     const double roughness = std::clamp(number(pbr, "roughnessFactor", 1), 0.0, 1.0);
     Material result{.name = {}, .reflection = "metallic-roughness", .color = encoded(base)};
-    auto* const image = textures_.show(pbr, "baseColorTexture", name, result);
+    auto* const image = textures_.show(pbr, "baseColorTexture", name, base, result);
     const auto map = textures_.texture(pbr, "metallicRoughnessTexture", name);
     const Json& extensions = object_of(from, "extensions");
     // Metals mirror surroundings, which a scene does not have: ambient light stands for half of them.
@@ -100,7 +96,7 @@ Material Materials::specular_glossiness(const Json& from, const Json& extension,
     const std::vector<double> specular = factor_of(extension, "specularFactor", 3);
     const double glossiness = std::clamp(number(extension, "glossinessFactor", 1), 0.0, 1.0);
     Material result{.name = {}, .reflection = "specular-glossiness", .color = encoded(base)};
-    auto* const image = textures_.show(extension, "diffuseTexture", name, result);
+    auto* const image = textures_.show(extension, "diffuseTexture", name, base, result);
     const auto map = textures_.texture(extension, "specularGlossinessTexture", name);
     std::vector<double> mean = specular;
     for (std::size_t k = 0; k < 3 && map; ++k) mean[k] *= map->image->means.linear[k];

@@ -38,8 +38,6 @@ Placing placing_of(const Json& transform) {
                        rounded(1 - offset[1] - std::cos(angle) * scale[1])}};
 }
 
-double rounded(double x) { return std::round(1e4 * x) / 1e4; }
-
 const char* name_of(Channel channel) {
     switch (channel) {
         case Channel::green:
@@ -51,13 +49,6 @@ const char* name_of(Channel channel) {
         default:
             return "r";
     }
-}
-
-/// One number if all are equal.
-std::vector<double> shortened(std::vector<double> value) {
-    for (double& x : value) x = rounded(x);
-    if (std::ranges::all_of(value, [&](double x) { return x == value[0]; })) value.resize(1);
-    return value;
 }
 
 }  // namespace
@@ -86,16 +77,15 @@ std::optional<Textures::Placed> Textures::texture(const Json& from, const char* 
 }
 
 Textures::MeasuredImage* Textures::show(const Json& from, const char* name, const std::string& material,
-                                        Material& to) {
+                                        std::vector<double> factor, Material& to) {
     const auto placed = texture(from, name, material);
     if (!placed) return nullptr;
-    // Some exporters write a transform that changes nothing.
-    if (placed->placing != Placing{})
-        model_.count("KHR_texture_transform",
-                     "the extension 'KHR_texture_transform' of a colour texture is left out",
-                     "the extension 'KHR_texture_transform' of {} colour textures is left out");
-    to.clamps = placed->clamps;
-    to.image = index_of_image(*placed->image);
+    factor.resize(3);
+    to.color_map = ParameterMap{.parameter = "color",
+                                .image = index_of_image(*placed->image),
+                                .scale = shortened(std::move(factor)),
+                                .clamps = placed->clamps,
+                                .placing = placed->placing};
     return placed->image;
 }
 
@@ -179,7 +169,8 @@ void Textures::cut_out(const Json& material, double factor, MeasuredImage* image
         mode == "BLEND" ? 0.5 : number(material, "alphaCutoff", 0.5) / std::max(factor, 1e-3);
     const bool is_opaque = factor >= 1 && (image == nullptr || image->opacity.bytes.empty());
     if (is_opaque || (mode == "MASK" && level <= 0)) return;
-    const bool is_wanted = image != nullptr && level <= 1 && image->opacity.is_cut_by(level) &&
+    const bool is_placed = to.color_map && to.color_map->placing != Placing{};
+    const bool is_wanted = image != nullptr && !is_placed && level <= 1 && image->opacity.is_cut_by(level) &&
                            (mode == "MASK" || (factor > level && image->opacity.is_clear_cut));
     if (is_wanted) {
         if (!image->cutout) {

@@ -41,8 +41,10 @@ class Textures {
     /// The texture of that name in a part of a material; nothing if there is none, or if it cannot be used,
     /// which is noted. `material`: as notes name it.
     std::optional<Placed> texture(const Json& from, const char* name, const std::string& material);
-    /// Uses a material's colour texture for the surface, and returns its image; null if there is none.
-    MeasuredImage* show(const Json& from, const char* name, const std::string& material, Material& to);
+    /// Uses a material's colour texture, times `factor`, for the surface, and returns its image; null if
+    /// there is none.
+    MeasuredImage* show(const Json& from, const char* name, const std::string& material,
+                        std::vector<double> factor, Material& to);
     /// Makes offset + scale * texel the values of a parameter, and returns their mean.
     std::vector<double> map(const Placed& picture, Channel channel, const char* parameter,
                             std::vector<double> scale, std::vector<double> offset, Material& to);

@@ -32,6 +32,12 @@ Vector encoded(const std::vector<double>& linear) {
     return color;
 }
 
+std::vector<double> shortened(std::vector<double> numbers) {
+    for (double& x : numbers) x = std::round(1e4 * x) / 1e4;
+    if (std::ranges::all_of(numbers, [&](double x) { return x == numbers[0]; })) numbers.resize(1);
+    return numbers;
+}
+
 void set_emission(const std::vector<double>& intensity, Material& to) {
     const double strength = *std::ranges::max_element(intensity);
     to.emission = {0, 0, 0};
@@ -126,8 +132,9 @@ double brightness_for(const Model& model) {
                       material.reflection == "specular-glossiness";
         // Bright spots of a picture are somewhat brighter than its mean.
         constexpr double k_spots = 1.3;
-        const double image =
-            material.image ? std::min(1.0, k_spots * model.images[*material.image].brightness) : 1;
+        const double image = material.color_map
+                                 ? std::min(1.0, k_spots * model.images[material.color_map->image].brightness)
+                                 : 1;
         double sum = 0;
         // For the key light with most of the fill light, and for the ambient light.
         constexpr double k_direct = 1.9, k_ambient = 0.6;
@@ -202,7 +209,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
         model.note("its textures are left out; it has no texture coordinates");
         model.images.clear();
         for (Material& material : model.materials) {
-            material.image.reset();
+            material.color_map.reset();
             material.maps.clear();
         }
     }

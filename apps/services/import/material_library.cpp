@@ -43,6 +43,17 @@ bool limit(std::vector<double>& kd, std::vector<double>& ks) {
     return true;
 }
 
+/// The map where its statement places it.
+ParameterMap placed(ParameterMap map, const mesh_io::MtlMap& statement) {
+    constexpr double k_most = 1e6;
+    map.clamps = statement.clamps;
+    for (std::size_t k = 0; k < 2; ++k) {
+        map.placing.scale[k] = std::clamp(statement.scale[k], -k_most, k_most);
+        map.placing.offset[k] = std::clamp(statement.offset[k], -k_most, k_most);
+    }
+    return map;
+}
+
 }  // namespace
 
 void MaterialLibraries::read_named(std::string_view names) {
@@ -133,12 +144,12 @@ void MaterialLibraries::add(const mesh_io::MtlMap& map, const MeasuredImage& pic
     const auto at =
         std::ranges::find(to.values, parameter, &std::pair<std::string, std::vector<double>>::first);
     at->second = {rounded(offset + scale * picture.means.stored[channel])};
-    to.maps.push_back({.parameter = parameter,
-                       .image = picture.index,
-                       .channel = std::string(1, map.channel),
-                       .scale = {rounded(scale)},
-                       .offset = {rounded(offset)},
-                       .clamps = map.clamps});
+    to.maps.push_back(placed({.parameter = parameter,
+                              .image = picture.index,
+                              .channel = std::string(1, map.channel),
+                              .scale = {rounded(scale)},
+                              .offset = {rounded(offset)}},
+                             map));
 }
 
 void MaterialLibraries::become_metallic_roughness(const Description& description, Material& to) {
@@ -148,8 +159,9 @@ void MaterialLibraries::become_metallic_roughness(const Description& description
     };
     to.reflection = "metallic-roughness";
     std::vector<double> color = coefficients(from.kd, 0.8);
-    if (!from.texture.empty() && are_all(color, 0)) color = {1, 1, 1};
+    if (!from.color_map.file.empty() && are_all(color, 0)) color = {1, 1, 1};
     to.color = encoded(color);
+    if (to.color_map) to.color_map->scale = shortened(color);
     const double metallic = share(from.metallic, 0);
     // As for glTF: ambient light stands for half of the surroundings that a metal mirrors.
     to.values = {{"ka", {std::round(1e4 * (0.96 - 0.46 * metallic)) / 1e4}},
@@ -203,10 +215,10 @@ void MaterialLibraries::tilt_normals(const Description& from, Material& to) {
             "bump_map has heights in metres",
             "{} bump maps are left out, since the unit of their heights is unknown; an object's "
             "bump_map has heights in metres");
-    to.normals = ParameterMap{.parameter = {},
-                              .image = picture->index,
-                              .scale = {is_bump ? std::clamp(map.multiplier, -1e3, 1e3) : 1},
-                              .clamps = map.clamps};
+    to.normals = placed({.parameter = {},
+                         .image = picture->index,
+                         .scale = {is_bump ? std::clamp(map.multiplier, -1e3, 1e3) : 1}},
+                        map);
 }
 
 void MaterialLibraries::add_emission(const Description& description, Material& to) {
@@ -221,24 +233,19 @@ void MaterialLibraries::add_emission(const Description& description, Material& t
     if (color.empty()) return;
     set_emission(color, to);
     if (!picture) return;
-    std::vector<double> scale;
-    for (const double channel : color)
-        scale.push_back(std::round(1e4 * channel / to.emission_strength) / 1e4);
-    if (are_all(scale, scale[0])) scale.resize(1);
-    to.maps.push_back({.parameter = "emission",
-                       .image = picture->index,
-                       .channel = "",
-                       .scale = std::move(scale),
-                       .clamps = from.emission_map.clamps});
+    for (double& channel : color) channel /= to.emission_strength;
+    to.maps.push_back(
+        placed({.parameter = "emission", .image = picture->index, .channel = "", .scale = shortened(color)},
+               from.emission_map));
 }
 
 Material MaterialLibraries::material(const std::string& name) {
     const Description& description = *find(name);
     const mesh_io::MtlMaterial& d = description.material;
     Material material{.name = name};
-    if (!d.texture.empty()) {
-        if (const auto picture = image(d.texture, name, description)) material.image = picture->index;
-        material.clamps = d.clamps;
+    if (!d.color_map.file.empty()) {
+        if (const auto picture = image(d.color_map.file, name, description))
+            material.color_map = placed({.parameter = "color", .image = picture->index}, d.color_map);
     }
     tilt_normals(description, material);
     add_emission(description, material);
@@ -260,7 +267,7 @@ Material MaterialLibraries::material(const std::string& name) {
         ks = {0, 0, 0};
     }
     // Some programs write black next to a texture, and mean the texture.
-    if (!d.texture.empty() && are_all(kd, 0)) kd = {1, 1, 1};
+    if (!d.color_map.file.empty() && are_all(kd, 0)) kd = {1, 1, 1};
     if (limit(kd, ks))
         model_.note("materials that reflect more light than they receive (Kd + Ks above 1) are scaled to 1");
     std::vector<double> ka = coefficients(d.ka, 1);

@@ -70,6 +70,9 @@ struct Placing {
     friend bool operator==(const Placing&, const Placing&) = default;
 };
 
+/// In four digits; one number if all are equal.
+std::vector<double> shortened(std::vector<double> numbers);
+
 /// A picture from which a parameter takes its value at each point: offset + scale * texel.
 struct ParameterMap {
     std::string parameter;
@@ -89,9 +92,8 @@ struct Material {
     std::optional<ParameterMap> normals{};  // a normal map, whose scale makes it steeper
     Vector emission{0, 0, 0};               // 0-255, unless it is one of the maps
     double emission_strength = 1;
-    std::optional<std::size_t> image{};   // index in Model::images
-    bool clamps = false;                  // the picture is clamped at its edges
-    std::optional<std::size_t> cutout{};  // index in Model::cutouts
+    std::optional<ParameterMap> color_map{};  // instead of `color`
+    std::optional<std::size_t> cutout{};      // index in Model::cutouts; clamped like the colour's picture
     double cutout_level = 0.5;
 };
 

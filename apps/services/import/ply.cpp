@@ -55,7 +55,7 @@ Model read_ply(const Source& source, candela::Registry& registry) {
         model.materials.push_back(
             {.name = "",
              .values = {{"ka", {0.3}}, {"kd", {0.75}}, {"ks", {0.2}}, {"shininess", {40}}},
-             .image = 0});
+             .color_map = ParameterMap{.parameter = "color"}});
         model.images.push_back({candela::canonical_path(image)});
     }
     return model;

@@ -176,7 +176,7 @@ class Writer {
 
     void write(const Part& part) {
         const Material* const material = part.material ? &model_.materials[*part.material] : nullptr;
-        const bool is_textured = material != nullptr && material->image && setting_.is_textured;
+        const bool is_textured = material != nullptr && material->color_map && setting_.is_textured;
         begin("[[object]]");
         object_names_.push_back(
             add_name(candela::printable(material != nullptr && !material->name.empty() ? material->name
@@ -193,21 +193,19 @@ class Writer {
         if (material != nullptr && material->cutout && setting_.is_textured && !setting_.cutouts.empty()) {
             add("cutout", candela::toml_text(setting_.cutouts[*material->cutout]));
             if (material->cutout_level != 0.5) add("cutout_level", real(material->cutout_level));
-            if (material->clamps) add("cutout_clamps", "true");
+            if (material->color_map->clamps) add("cutout_clamps", "true");
         }
         if (model_.is_z_up) add("rotation", "[-90.0, 0.0, 0.0]");
         // Intentionally visible from both sides.
         if (model_.parts.size() > 1 || !setting_.is_closed || !model_.lights.empty() ||
             part.sides == Sides::both || setting_.frames > 0)
             add("encloses", "true");
-        if (material != nullptr) {
+        if (is_textured) {
+            add("color", text_of(*material->color_map));
+        } else if (material != nullptr) {
             add("color", color(material->color));
         } else {
             add("color", setting_.has_vertex_colors ? "[255, 255, 255]" : "[200, 200, 200]");
-        }
-        if (is_textured) {
-            add("color_texture", candela::toml_text(setting_.images[*material->image]));
-            if (material->clamps) add("color_texture_wrap", "\"clamp\"");
         }
         if (material != nullptr && material->normals && setting_.is_textured)
             add("normal_map", text_of(*material->normals));

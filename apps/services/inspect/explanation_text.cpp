@@ -172,7 +172,11 @@ class Writer {
         }
         value(2, "V", point.to_observer);
         if (length(point.tangent) > 0) value(2, "T", point.tangent);
-        value(2, "C_o", point.color);
+        value(2, "C_o", point.color,
+              object.color_texture
+                  ? texel_text(object.color_texture->file,
+                               textures.textures[textures.numbers[textures.color].texture], point)
+                  : "");
         write_textures(point, object, textures);
         write_common(point, object, surface);
         for (const LightTrace& light : point.lights) write(light, point, object);

@@ -109,14 +109,18 @@ class Editor {
         }
     }
 
-    std::string text_in(const std::string& file, Node value) const {
+    static void make_relative(Node& value, const fs::path& to) {
+        if (TableNode* const table = value.table())
+            for (TableNode::Entry& entry : table->entries) make_relative(entry.node, to);
         auto* const text = std::get_if<std::string>(&value.value);
         std::error_code problem;
-        if (paths_ == Paths::relative_to_file && text != nullptr && fs::is_regular_file(*text, problem)) {
-            const fs::path named = fs::absolute(*text);
-            const fs::path relative = named.lexically_proximate(fs::absolute(file).parent_path());
-            *text = relative.string();
-        }
+        if (text == nullptr || !fs::is_regular_file(*text, problem)) return;
+        const fs::path relative = fs::absolute(*text).lexically_proximate(to);
+        *text = relative.string();
+    }
+
+    std::string text_in(const std::string& file, Node value) const {
+        if (paths_ == Paths::relative_to_file) make_relative(value, fs::absolute(file).parent_path());
         return toml_text(value);
     }
 

@@ -66,10 +66,9 @@ Json parameter_schema(const Manifest& m, const Parameter& p) {
     return schema;
 }
 
-/// The value of a key that every material has, or the texture that it may have instead.
-Json material_value_schema(const Parameter& p) {
+/// The value of a key, or the texture that it may have instead.
+Json textured_schema(const Parameter& p) {
     Json schema = parameter_schema(p);
-    if (!takes_texture(p)) return schema;
     Json texture{{"$ref", fmt::format("#/definitions/{}", k_texture)}};
     return {{"description", schema["description"]},
             {"anyOf", Json::array({value_json(p), std::move(texture)})},
@@ -80,7 +79,8 @@ Json material_value_schema(const Parameter& p) {
 void add_common(PluginKind kind, Json& properties) {
     if (kind != PluginKind::reflection) return;
     for (const Parameter& p : material_schema().parameters)
-        if (!properties.contains(p.name)) properties[p.name] = material_value_schema(p);
+        if (!properties.contains(p.name))
+            properties[p.name] = takes_texture(p) ? textured_schema(p) : parameter_schema(p);
 }
 
 /// A list of values of the parameter's type.
@@ -204,7 +204,11 @@ class SchemaWriter {
         std::vector<std::string> own;
         for (const Parameter& p : table.parameters) {
             const bool is_timed = std::ranges::find(table.timed, p.name) != table.timed.end();
-            properties[p.name] = is_timed ? timed_schema(p) : parameter_schema(p);
+            const bool may_have_texture = table.name == "object" && p.name == color_parameter().name &&
+                                          !all(PluginKind::reflection).empty();
+            properties[p.name] = is_timed           ? timed_schema(p)
+                                 : may_have_texture ? textured_schema(p)
+                                                    : parameter_schema(p);
             own.push_back(p.name);
         }
         for (const TableSchema& inner : table.tables) {

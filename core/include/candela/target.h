@@ -62,8 +62,7 @@ struct ExportedTextureLevel {
                                               // an intensity of 1; rows from the top
 };
 
-/// A picture that multiplies the colours of surfaces. Levels, and values between them, are looked up as
-/// candela.shading does.
+/// A picture on surfaces. Levels, and values between them, are looked up as candela.shading does.
 struct ExportedTexture {
     const char* file = "";  // absolute path
     std::span<const ExportedTextureLevel> levels{};
@@ -99,10 +98,8 @@ struct ExportedNormalMap {
 };
 
 struct ExportedObject {
-    static constexpr std::size_t k_no_texture = static_cast<std::size_t>(-1);
-
     const char* label = "";                       // the author's name for it, or number 2
-    Vec3 color{};                                 // 0-255
+    Vec3 color{};                                 // 0-255; white, if it has a texture
     std::size_t shading = 0;                      // its own: index into ExportedScene::shadings
     std::size_t reflection = 0;                   // its own: index into ExportedScene::reflections
     std::span<const ExportedValues> shadings{};   // values for each shading model of the scene
@@ -110,8 +107,7 @@ struct ExportedObject {
     ExportedModel shape{};
     ExportedValues shape_values{};
     Transform transform{};
-    std::size_t color_texture = k_no_texture;  // index into ExportedScene::textures
-    bool color_texture_repeats = true;         // beyond its edges; otherwise the edge colours continue
+    std::span<const ExportedTexturedNumber> color_numbers{};     // three, if it has a texture, or none
     std::span<const ExportedTexturedNumber> textured_numbers{};  // of its own reflection model
     const ExportedNormalMap* normal_map = nullptr;               // or null
     // Of its material, whatever the reflection model:
@@ -263,7 +259,7 @@ struct TargetAbilities {
     bool surroundings = false;           // environment maps, and models that show what is behind an object
     bool triangle = false;               // kernels of shading models that read their triangle: ShadingNeeds
     bool vertex_colors = false;          // ExportedMesh::color; otherwise the host refuses a mesh that has it
-    bool textures = false;               // ExportedObject::color_texture
+    bool textures = false;               // ExportedObject::color_numbers
     bool textured_numbers = false;       // ExportedObject::textured_numbers
     bool normal_maps = false;            // ExportedObject::normal_map
     bool emission = false;               // ExportedObject::emission, and its texture

@@ -21,7 +21,7 @@ class SceneTextures {
         : registry_(registry), diagnostics_(diagnostics), of_scene_(of_scene) {}
 
     /// Keeps the pictures of an object that has been built, for a scene with the same encoding of colours.
-    void keep(const Object& object, const SurfaceModels& surface);
+    void keep(const SurfaceModels& surface);
 
     /// Reads what the surface lacks. Problems are reported at the place of the texture.
     void make(const Object& object, SurfaceModels& surface);

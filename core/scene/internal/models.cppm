@@ -31,6 +31,8 @@ class ModelChooser {
     Model shading_for(const TableNode& object);
     /// Sets the object's reflection model and the textures of its parameters.
     void set_reflection(Object& to, const TableNode& object, const std::string& label);
+    /// Takes the object's colour from its table, if it is a texture. `where`: the object, for messages.
+    std::optional<ParameterTexture> take_color_texture(TableNode& object, const std::string& where);
 
   private:
     /// A model's name, and where it stands.

@@ -135,12 +135,10 @@ class CppWriter {
                        "empty\n")},
             {"TEXTURES", textures_.declarations},
             {"TEXTURE_SEEN", textures_.seen},
-            {"TINT_PARAMETER", tint().empty() ? "" : ", vec3 tint"},
-            {"TIMES_TINT", tint().empty() ? "" : " * tint"},
-            {"TINT_WITHIN", tint("(m.color.empty() ? vec3(1.0f) : blend(m.color, m, triangle, b))",
-                                 "texture_within(o, triangle, b)")},
-            {"TINT_AT_VERTEX",
-             tint("(o.mesh.color.empty() ? vec3(1.0f) : o.mesh.color[v])", "texture_at_vertex(o, v)")},
+            {"TINT_PARAMETER", if_colors(", vec3 tint")},
+            {"TIMES_TINT", if_colors(" * tint")},
+            {"TINT_WITHIN", if_colors(", m.color.empty() ? vec3(1.0f) : blend(m.color, m, triangle, b)")},
+            {"TINT_AT_VERTEX", if_colors(", o.mesh.color.empty() ? vec3(1.0f) : o.mesh.color[v]")},
             {"TRIANGLE_OF", if_triangles(k_triangle_of)},
             {"TRIANGLE_PARAMETER", if_triangles(", const Triangle& triangle")},
             {"THIS_TRIANGLE", if_triangles(", triangle_of(o, triangle)")},
@@ -220,14 +218,6 @@ class CppWriter {
     /// Colours at vertices; empty in a program without them.
     std::string if_colors(const char* text) const { return objects_.has_vertex_colors() ? text : ""; }
 
-    /// The factor of the object's colour at a point, as an argument; empty in a scene without one.
-    std::string tint(const char* of_vertices = "1", const char* of_texture = "1") const {
-        std::vector<const char*> factors;
-        if (objects_.has_vertex_colors()) factors.push_back(of_vertices);
-        if (!scene_.textures.empty()) factors.push_back(of_texture);
-        return factors.empty() ? "" : fmt::format(", {}", fmt::join(factors, " * "));
-    }
-
     std::string model_kernels() const {
         std::string text;
         std::set<std::string> done;
@@ -304,13 +294,12 @@ class CppWriter {
             text +=
                 "    int textured = -1;  // the number of its material in material_at(), if that has "
                 "textures\n";
-        if (!scene_.textures.empty()) text += "    ColorTexture texture;\n";
         if (has_normal_maps(scene_)) text += "    NormalMap normal_map;\n";
         for (const auto& model : scene_.shadings) text += member(model, shading_member(model));
         return text;
     }
     std::string materials() const {
-        std::string text;
+        std::string text = "    vec3 color;\n";
         if (scene_.reflections.size() > 1) text += "    Reflection reflection{};\n";
         for (const auto& model : scene_.reflections) text += member(model, material_member(model));
         if (has_emission(scene_))

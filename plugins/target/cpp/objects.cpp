@@ -79,9 +79,6 @@ void CppObjects::add_object(std::size_t index) {
     if (at.scale != Vec3{1, 1, 1}) text += fmt::format("        o.scale = {};\n", vec3_text(at.scale));
     text +=
         fmt::format("        o.color = color({});\n", list(object.color.x, object.color.y, object.color.z));
-    if (object.color_texture != ExportedObject::k_no_texture)
-        text += fmt::format("        o.texture = {{&texture_{}(), {}}};\n", object.color_texture,
-                            object.color_texture_repeats);
     if (object.normal_map != nullptr) {
         const ExportedNormalMap& map = *object.normal_map;
         const auto axis = [&](std::size_t at) {
@@ -132,7 +129,8 @@ std::string CppObjects::textured_material(std::size_t number, const ExportedObje
                            list(n.placing[3], n.placing[4], n.placing[5]));
     };
     const auto [texels, assignments, common] = material_statements(
-        scene_, object, {"        ", "const vec3", "m", "own.emission", "own.occlusion"}, lookup);
+        scene_, object, {"        ", "const vec3", "m", "own.color", "own.emission", "own.occlusion"},
+        lookup);
     std::string material;
     if (!object.textured_numbers.empty())
         material =

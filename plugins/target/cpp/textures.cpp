@@ -38,14 +38,13 @@ TextureTexts textures_of(const ExportedScene& scene, const std::string& textured
             i, title_of(scene.textures[i]), texture_file(i));
     }
     const bool has_materials = !textured_materials.empty(), has_normals = has_normal_maps(scene);
-    const auto if_placed = [&](const char* text) { return has_materials || has_normals ? text : ""; };
     return {filled(candela_cpp_textures, {{"FILE", std::string(texture_file_source())},
                                           {"KERNEL", std::string(texture_kernel())},
                                           {"PICTURES", images}}) +
-                if_placed(k_placing) +
+                k_placing +
                 (has_normals ? filled(candela_cpp_normal_maps, {{"KERNEL", std::string(normal_map_kernel())}})
                              : std::string()),
-            std::string(candela_cpp_texture_seen) + if_placed(candela_cpp_placed_texture) +
+            std::string(candela_cpp_texture_seen) + candela_cpp_placed_texture +
                 (has_normals ? candela_cpp_normal_texel : "") +
                 (has_materials ? filled(candela_cpp_textured_material, {{"CASES", textured_materials}})
                                : std::string())};

@@ -10,7 +10,7 @@ namespace candela::cpp_target {
 /// Both are empty in a scene without textures.
 struct TextureTexts {
     std::string declarations;  // before objects: a function texture_<number>() for each, and texture lookup
-    std::string seen;          // before light is evaluated: an object's colour and material at a point
+    std::string seen;          // before light is evaluated: an object's material at a point
 };
 TextureTexts textures_of(const ExportedScene& scene, const std::string& textured_materials);
 

@@ -83,9 +83,8 @@ class Writer {
              is_anisotropic(scene_.reflections[object.reflection], object.materials[object.reflection]));
         if (has_tangents)
             attributes["TANGENT"] = document_.add_tangents(mesh.dpdu, mesh.dpdv, normals, count);
-        const bool is_textured = object.color_texture != ExportedObject::k_no_texture ||
-                                 !target::all_textured_numbers(object).empty() ||
-                                 object.normal_map != nullptr;
+        const bool is_textured =
+            !target::all_textured_numbers(object).empty() || object.normal_map != nullptr;
         if (mesh.uv && (has_tangents || is_textured))
             attributes["TEXCOORD_0"] = document_.add_texture_coordinates(mesh.uv, count);
         if (mesh.color) attributes["COLOR_0"] = document_.add_vectors(mesh.color, count);

@@ -141,9 +141,7 @@ std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
         material["extensions"]["KHR_materials_unlit"] = Json::object();
         document_.use_extension("KHR_materials_unlit");
     }
-    if (object.color_texture != ExportedObject::k_no_texture)
-        material["pbrMetallicRoughness"]["baseColorTexture"]["index"] =
-            pictures_.texture_of(pictures_.file_of(object.color_texture), object.color_texture_repeats);
+    maps_.add_color(object, material);
     maps_.add_normals(object, material);
     if (is_unlit && target::emission_of(object, scene_.image.color_management) != Rgb{})
         files_.approximate("what an unlit material emits is left out by programs that show the file");

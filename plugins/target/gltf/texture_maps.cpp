@@ -79,10 +79,14 @@ constexpr TextureMaps::Map k_maps[] = {
     {k_glossy, k_specular, "specularColorTexture", true, 1, k_specular_color},
 };
 
+constexpr Channel k_color[] = {{"color", 0, 0, "baseColorFactor"},
+                               {"color", 1, 1, "baseColorFactor"},
+                               {"color", 2, 2, "baseColorFactor"}};
 constexpr Channel k_emission[] = {{"emission", 0, 0, "emissiveFactor"},
                                   {"emission", 1, 1, "emissiveFactor"},
                                   {"emission", 2, 2, "emissiveFactor"}};
 constexpr Channel k_occlusion[] = {{"occlusion", 0, 0, nullptr}};
+constexpr TextureMaps::Map k_color_map{nullptr, nullptr, "baseColorTexture", true, 1, k_color};
 constexpr TextureMaps::Map k_emission_map{nullptr, nullptr, "emissiveTexture", true, 1, k_emission};
 constexpr TextureMaps::Map k_occlusion_map{
     nullptr, nullptr, "occlusionTexture", false, 1, k_occlusion, nullptr, false, false};
@@ -216,19 +220,34 @@ Json TextureMaps::info_of(std::size_t image, bool repeats, const float (&placing
     return info;
 }
 
+TextureMaps::Picture TextureMaps::picture_of(const Map& map,
+                                             std::span<const ExportedTexturedNumber> numbers) {
+    std::vector<Source> sources;
+    for (const ExportedTexturedNumber& number : numbers)
+        sources.push_back({.channel = &map.channels[number.channel], .number = &number});
+    const auto picture = file_of(map, sources);
+    return picture ? *picture : baked(map, sources);
+}
+
+void TextureMaps::add_color(const ExportedObject& object, Json& material) {
+    if (object.color_numbers.empty()) return;
+    const Picture picture = picture_of(k_color_map, object.color_numbers);
+    Json& pbr = material["pbrMetallicRoughness"];
+    for (std::size_t c = 0; c < 3; ++c)
+        pbr["baseColorFactor"][c] = picture.highest[c] * pbr["baseColorFactor"][c].get<float>();
+    const ExportedTexturedNumber& placed = object.color_numbers.front();
+    pbr["baseColorTexture"] = info_of(picture.image, placed.repeats, placed.placing);
+}
+
 void TextureMaps::add_emission(const ExportedObject& object, Json& material) {
     const Rgb emission = target::emission_of(object, scene_.image.color_management);
     if (emission == Rgb{}) return;
     std::array<float, 3> factor{emission.r, emission.g, emission.b};
     if (!object.emission_numbers.empty()) {
-        std::vector<Source> sources;
-        for (std::size_t c = 0; c < 3; ++c)
-            sources.push_back({.channel = &k_emission[c], .number = &object.emission_numbers[c]});
-        auto picture = file_of(k_emission_map, sources);
-        if (!picture) picture = baked(k_emission_map, sources);
-        for (std::size_t c = 0; c < 3; ++c) factor[c] *= picture->highest[c];
+        const Picture picture = picture_of(k_emission_map, object.emission_numbers);
+        for (std::size_t c = 0; c < 3; ++c) factor[c] *= picture.highest[c];
         const ExportedTexturedNumber& placed = object.emission_numbers.front();
-        material["emissiveTexture"] = info_of(picture->image, placed.repeats, placed.placing);
+        material["emissiveTexture"] = info_of(picture.image, placed.repeats, placed.placing);
     }
     const float strength = std::max(*std::ranges::max_element(factor), 1.0f);
     material["emissiveFactor"] = {factor[0] / strength, factor[1] / strength, factor[2] / strength};

@@ -22,6 +22,8 @@ class TextureMaps {
     /// Adds maps to a material of glTF's own model, which has the means of the pictures in `values`.
     /// Parameters for which glTF has no map keep their mean, which is reported.
     void add(const ExportedObject& object, std::span<const ParamValue> values, Json& material);
+    /// Multiplies a material of any model with the picture of the object's colour, if it has one.
+    void add_color(const ExportedObject& object, Json& material);
     /// Adds what an object emits, and its occlusion, to a material of any model.
     void add_emission(const ExportedObject& object, Json& material);
     void add_occlusion(const ExportedObject& object, Json& material);
@@ -53,6 +55,8 @@ class TextureMaps {
     /// Sources that glTF reads from the file of their one picture; nothing if it cannot.
     std::optional<Picture> file_of(const Map& map, const std::vector<Source>& sources);
     Picture baked(const Map& map, const std::vector<Source>& sources);
+    /// The file or the baked picture of three numbers that have a map of their own.
+    Picture picture_of(const Map& map, std::span<const ExportedTexturedNumber> numbers);
 
     const ExportedScene& scene_;
     Document& document_;

@@ -22,10 +22,6 @@ using namespace target;
 
 namespace {
 
-constexpr const char* k_members =
-    "    int texture;           // -1: none\n"
-    "    bool texture_repeats;  // beyond its edges; otherwise the edge colours continue\n";
-
 constexpr const char* k_put_corners =
     "            for (std::size_t corner = 0; corner < 3; ++corner) put(9 + corner, vector(mesh.position, "
     "v[corner]));\n";
@@ -41,7 +37,7 @@ constexpr const char* k_load =
     "        glActiveTexture(GL_TEXTURE4);\n"
     "        for (const char* const file : k_textures) textures_.push_back(make_texture(file));\n";
 
-constexpr const char* k_material_members =
+constexpr const char* k_members =
     "    int material;                                        // in k_materials; -1: no textures\n"
     "    int common_material;                                 // with another reflection model\n"
     "    int normal_map;                                      // in k_normal_maps; -1: none\n"
@@ -49,35 +45,13 @@ constexpr const char* k_material_members =
 
 constexpr const char* k_bind =
     "            set_pixel(program, observer, view, height);\n"
-    "            if (object.texture >= 0)\n"
-    "                bind(textures_[static_cast<std::size_t>(object.texture)], object.texture_repeats, "
-    "program, \"color_texels\", \"color_texture\", 4);\n";
-
-/// Even a sampler that is not read must refer to a texture of its type, and not to the picture that is being
-/// drawn.
-std::string bind_materials(std::size_t most) {
-    return fmt::format(
-        "            const bool reads_pictures = (reflection == object.reflection ? object.material : "
-        "object.common_material) >= 0 || object.normal_map >= 0;\n"
-        "            if (reads_pictures && object.texture < 0) set(program, {{\"color_texels\", "
-        "Uniform::whole, "
-        "{{6, 0, 0}}}});\n"
-        "            for (std::size_t k = 0; k < {} && (reads_pictures || object.texture >= 0); ++k) {{\n"
-        "                const std::string number = std::to_string(k), name = \"material_texture_\" + "
-        "number, "
-        "texels = \"material_texels_\" + number;\n"
-        "                if (!reads_pictures) {{\n"
-        "                    set(program, {{texels.c_str(), Uniform::whole, {{4, 0, 0}}}});\n"
-        "                    continue;\n"
-        "                }}\n"
-        "                const auto [texture, repeats] = object.pictures[k < object.pictures.size() ? k : "
-        "0];\n"
-        "                bind(textures_[texture], repeats, program, texels, name, 6 + static_cast<int>(k));\n"
-        "                set(program, {{(name + \".unit\").c_str(), Uniform::whole, {{static_cast<float>(k + "
-        "1), 0, 0}}}});\n"
-        "            }}\n",
-        most);
-}
+    "            const bool reads_pictures = (reflection == object.reflection ? object.material : "
+    "object.common_material) >= 0 || object.normal_map >= 0;\n"
+    "            // Even a sampler that is not read must refer to a texture of its type.\n"
+    "            for (std::size_t k = 0; k < {} && reads_pictures; ++k) {{\n"
+    "                const auto [texture, repeats] = object.pictures[k < object.pictures.size() ? k : 0];\n"
+    "                bind(textures_[texture], repeats, program, k);\n"
+    "            }}\n";
 
 std::string declarations_of(const ExportedScene& scene) {
     std::string files;
@@ -99,42 +73,32 @@ std::string texts_of(const char* name, std::initializer_list<const std::vector<s
 }  // namespace
 
 Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
-    const std::size_t most_pictures = most_material_pictures(scene);
-    const bool has_materials = most_pictures > 0;
-    const auto if_materials = [&](std::string text) {
-        return has_materials ? std::move(text) : std::string();
-    };
     const bool has_textures = !scene.textures.empty();
     const auto if_textures = [&](std::string text) { return has_textures ? std::move(text) : std::string(); };
     const std::string corners = sees_triangles(scene) ? "" : k_put_corners;
     return {
-        {"TEXTURE_SHADER",
-         if_textures(fmt::format("const std::string k_texture = {};\n", raw(glsl.texture))) +
-             if_materials(texts_of("k_materials", {&glsl.materials, &glsl.common_materials}) +
-                          texts_of("k_normal_maps", {&glsl.normal_maps}))},
-        {"TEXTURE_MEMBERS", if_textures(k_members) + if_materials(k_material_members)},
+        {"TEXTURE_SHADER", if_textures(fmt::format("const std::string k_texture = {};\n", raw(glsl.texture)) +
+                                       texts_of("k_materials", {&glsl.materials, &glsl.common_materials}) +
+                                       texts_of("k_normal_maps", {&glsl.normal_maps}))},
+        {"TEXTURE_MEMBERS", if_textures(k_members)},
         {"TEXTURES", has_textures ? declarations_of(scene) : ""},
         {"PUT_TEXTURE", if_textures(corners + k_put_edges)},
         {"SKIP_ABSENT", if_textures("        if (all[i].empty()) continue;\n")},
         {"FIND_TEXTURES", if_textures("        look_for_textures_at(argv[0]);\n")},
         {"LOAD_TEXTURES", if_textures(k_load)},
-        {"BIND_TEXTURE", if_textures(k_bind) + if_materials(bind_materials(most_pictures))},
+        {"BIND_TEXTURE", if_textures(fmt::format(k_bind, most_material_pictures(scene)))},
         {"MATERIAL_OF",
-         if_materials("        const int material = reflection == object.reflection ? object.material : "
-                      "object.common_material;\n")},
-        {"IS_TEXTURED", if_textures(", object.texture >= 0") + if_materials(", material, object.normal_map")},
-        {"TEXTURE_TEXT",
-         has_materials
-             ? " (object.texture < 0 && material < 0 && object.normal_map < 0 ? \"\" : k_texture) + "
-               "(object.texture < 0 ? \"\" : "
-               "\"#define TEXTURED_COLOR\\n\") +\n                                   (material < 0 ? \"\" : "
-               "\"#define TEXTURED_MATERIAL\\n\") +"
-             : if_textures(" (object.texture < 0 ? \"\" : k_texture) +")},
+         if_textures("        const int material = reflection == object.reflection ? object.material : "
+                     "object.common_material;\n")},
+        {"IS_TEXTURED", if_textures(", material, object.normal_map")},
+        {"TEXTURE_TEXT", if_textures(" (material < 0 && object.normal_map < 0 ? \"\" : k_texture) +\n"
+                                     "                                   (material < 0 ? \"\" : \"#define "
+                                     "TEXTURED_MATERIAL\\n\") +")},
         {"MATERIAL_TEXT",
-         if_materials(" + (material < 0 ? \"\" : k_materials[static_cast<std::size_t>(material)]) +\n"
-                      "                                   (object.normal_map < 0 ? \"\" : "
-                      "k_normal_maps[static_cast<std::size_t>(object.normal_map)])")},
-        {"TEXTURED_KEY", if_textures(", bool") + if_materials(", int, int")},
+         if_textures(" + (material < 0 ? \"\" : k_materials[static_cast<std::size_t>(material)]) +\n"
+                     "                                   (object.normal_map < 0 ? \"\" : "
+                     "k_normal_maps[static_cast<std::size_t>(object.normal_map)])")},
+        {"TEXTURED_KEY", if_textures(", int, int")},
         {"TEXTURES_HELD", if_textures("    std::vector<Texture> textures_;\n")}};
 }
 
@@ -146,21 +110,14 @@ std::string texture_members(const ExportedScene& scene, std::size_t index) {
     const auto number = [&](const auto& is_one) {
         return is_one(object) ? std::ranges::count_if(scene.objects.first(index), is_one) : -1;
     };
-    const auto has_common = [](const ExportedObject& o) {
-        return !o.emission_numbers.empty() || !o.occlusion_numbers.empty();
-    };
-    std::string text = object.color_texture == ExportedObject::k_no_texture
-                           ? ", -1, true"
-                           : fmt::format(", {}, {}", object.color_texture, object.color_texture_repeats);
-    if (most_material_pictures(scene) == 0) return text;
     std::string pictures;
     for (const MaterialPicture& picture : material_pictures(object))
         pictures +=
             fmt::format("{}{{{}, {}}}", pictures.empty() ? "" : ", ", picture.texture, picture.repeats);
     const auto own_texts = std::ranges::count_if(scene.objects, is_textured);
-    return text + fmt::format(", {}, {}, {}, {{{}}}", number(is_textured),
-                              has_common(object) ? own_texts + number(has_common) : -1, number(is_mapped),
-                              pictures);
+    return fmt::format(", {}, {}, {}, {{{}}}", number(is_textured),
+                       has_common_textures(object) ? own_texts + number(has_common_textures) : -1,
+                       number(is_mapped), pictures);
 }
 
 }  // namespace candela::opengl_target

@@ -13,7 +13,7 @@ namespace candela::opengl_target {
 /// The parts of the program's template that concern textures; empty in a scene without any.
 target::Values texture_values(const ExportedScene& scene, const target::GlslParts& glsl);
 
-/// The end of object number `index`'s initializer: ", 0, true".
+/// The end of object number `index`'s initializer: ", 0, -1, -1, {{2, true}}".
 std::string texture_members(const ExportedScene& scene, std::size_t index);
 
 }  // namespace candela::opengl_target

@@ -125,10 +125,10 @@ Surface surface_of(const ExportedScene& scene, const ExportedObject& object, Vec
     }
     const Rgb emission = target::emission_of(object, scene.image.color_management);
     if (emission != Rgb{}) {
-        if (object.color_texture != ExportedObject::k_no_texture)
+        if (!object.color_numbers.empty())
             throw std::runtime_error(fmt::format(
-                "object {} emits light and has a color_texture, by which POV-Ray multiplies what a surface "
-                "emits; remove one of them",
+                "object {} emits light and has a texture of its colour, by which POV-Ray multiplies what a "
+                "surface emits; remove one of them",
                 object.label));
         surface.color = at_least_tiny(surface.color);
         surface.emission = over({emission.r, emission.g, emission.b}, surface.color);

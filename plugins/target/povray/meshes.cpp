@@ -143,7 +143,7 @@ std::string visible_text(const ExportedScene& scene, std::size_t index, const Ex
     const ExportedObject& object = scene.objects[index];
     const ExportedShading& shading = scene.shadings[object.shading];
     target::approximate_shading(shading, files);
-    const bool is_textured = object.color_texture != ExportedObject::k_no_texture;
+    const bool is_textured = !object.color_numbers.empty();
     if (is_textured && mesh.color)
         files.approximate("the colours at the vertices of objects with a texture are left out");
     const bool has_faces = shading.rate == ShadingRate::face;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "candela/color.h"
 #include "candela/target/files.h"
@@ -14,19 +16,37 @@ namespace candela::povray_target {
 
 namespace {
 
-/// A texture's picture, multiplied with a colour.
-target::TexturePixels image_of(const ExportedTextureLevel& level, Vec3 color) {
+/// The colours that a picture gives, multiplied with another.
+target::TexturePixels image_of(const ExportedTextureLevel& level,
+                               std::span<const ExportedTexturedNumber> numbers, Vec3 color) {
     target::TexturePixels pixels{
         .width = level.width, .height = level.height, .is_encoded = false, .bytes = {}};
     pixels.bytes.reserve(level.texels.size() / 4 * 6);
     const float factors[] = {color.x, color.y, color.z};
-    for (std::size_t i = 0; i < level.texels.size(); ++i) {
-        if (i % 4 == 3) continue;
-        const long value = std::lround(factors[i % 4] * static_cast<float>(level.texels[i]));
-        pixels.bytes.push_back(static_cast<std::byte>(value >> 8));
-        pixels.bytes.push_back(static_cast<std::byte>(value & 255));
+    for (std::size_t texel = 0; texel < level.texels.size(); texel += 4) {
+        for (const ExportedTexturedNumber& n : numbers) {
+            const float stored = static_cast<float>(level.texels[texel + n.texel_channel]) / 65535.0f;
+            const float value = std::min(std::max(n.offset + n.scale * stored, n.minimum), n.maximum);
+            const long whole = std::lround(65535.0f * factors[n.channel] * value);
+            pixels.bytes.push_back(static_cast<std::byte>(whole >> 8));
+            pixels.bytes.push_back(static_cast<std::byte>(whole & 255));
+        }
     }
     return pixels;
+}
+
+/// The transform of a pattern is the inverse of that of its coordinates.
+std::string transform_text(const float (&placing)[6], FileSink& files) {
+    const auto& [a, b, u, c, d, v] = placing;
+    if (std::ranges::equal(placing, std::array<float, 6>{1, 0, 0, 0, 1, 0})) return "";
+    const float det = a * d - b * c;
+    if (det == 0) {
+        files.approximate("a texture that is scaled by 0 is not");
+        return "";
+    }
+    const float a_i = d / det, b_i = -b / det, c_i = -c / det, d_i = a / det;
+    return fmt::format(" matrix <{}, {}, 0, {}, {}, 0, 0, 0, 1, {}, {}, 0>", a_i, c_i, b_i, d_i,
+                       -(a_i * u + b_i * v), -(c_i * u + d_i * v));
 }
 
 }  // namespace
@@ -39,15 +59,17 @@ Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, c
                    FileSink& files) {
     const ExportedObject& of = scene.objects[object];
     const float factor = std::max({color.x, color.y, color.z});
-    if (of.color_texture == ExportedObject::k_no_texture || factor <= 0) return {rgb_text(color), 1};
+    if (of.color_numbers.empty() || factor <= 0) return {rgb_text(color), 1};
     files.approximate("textures are seen bilinear, without averaging over a pixel's area");
-    if (!of.color_texture_repeats) files.approximate("textures that are clamped at their edges are repeated");
+    const ExportedTexturedNumber& placed = of.color_numbers.front();
+    if (!placed.repeats) files.approximate("textures that are clamped at their edges are repeated");
     const std::string name = fmt::format("texture_{}{}.ppm", object, suffix);
-    const ExportedTextureLevel& picture = scene.textures[of.color_texture].levels.front();
-    target::write(files, name.c_str(), target::ppm_of(image_of(picture, 1 / factor * color)));
-    return {
-        fmt::format("uv_mapping image_map {{ ppm \"{}\" gamma {} interpolate 2 }}", name, gamma_text(scene)),
-        factor};
+    const ExportedTextureLevel& picture = scene.textures[placed.texture].levels.front();
+    target::write(files, name.c_str(),
+                  target::ppm_of(image_of(picture, of.color_numbers, 1 / factor * color)));
+    return {fmt::format("uv_mapping image_map {{ ppm \"{}\" gamma {} interpolate 2 }}{}", name,
+                        gamma_text(scene), transform_text(placed.placing, files)),
+            factor};
 }
 
 }  // namespace candela::povray_target

@@ -216,14 +216,13 @@ type = "sphere"
 segments = 10
 radius = 0.8
 position = [-1, 0, 0]
-color = [200, 250, 220]
-color_texture = "texture.ppm"
+color = { texture = "texture.ppm", scale = [0.6, 0.95, 0.7], transform = { scale = [2, 1.5], rotation = 30, offset = [0.2, 0.1] } }
 [[object]]
 type = "sphere"
 segments = 10
 radius = 0.8
 position = [1, 0, 0]
-color_texture = "texture.ppm"
+color = { texture = "texture.ppm" }
 [object.material]
 kd = [0.5, 0.4, 0.6]
 ks = [0.4, 0.2, 0.1]

@@ -119,8 +119,7 @@ class Writer {
         const ExportedValues& values = object.materials[object.reflection];
         const auto ka = rgb_value(model, values, "ka"), kd = rgb_value(model, values, "kd");
         if (std::string_view(model.id) != "reflection/lambert" || !ka || !kd ||
-            !is_smooth(scene_.shadings[object.shading]) ||
-            object.color_texture != ExportedObject::k_no_texture || !material_pictures(object).empty())
+            !is_smooth(scene_.shadings[object.shading]) || !material_pictures(object).empty())
             return {};
         Vec3 ambient{};
         for (const ExportedLight& light : scene_.lights)
@@ -138,7 +137,6 @@ class Writer {
         const ExportedShading& shading = scene_.shadings[object.shading];
         const Vec3 color = intensities(object.color, scene_.image.color_management);
         Json lambert = has_own_lights ? lambert_json(object, mesh, color) : Json();
-        const bool is_textured = object.color_texture != ExportedObject::k_no_texture;
         Json json = {{"label", object.label},
                      {"closed", is_closed_[index]},
                      {"rate", rate_name(shading.rate)},
@@ -151,8 +149,6 @@ class Writer {
                        {"material", struct_json(scene_.reflections[object.reflection],
                                                 object.materials[object.reflection])},
                        {"shading", struct_json(shading, object.shadings[object.shading])}}},
-                     {"texture", is_textured ? Json(object.color_texture) : Json()},
-                     {"texture_repeats", object.color_texture_repeats},
                      {"material", target::all_textured_numbers(object).empty() ? Json() : Json(index)},
                      {"normal_map", object.normal_map == nullptr ? Json() : Json(index)},
                      {"material_pictures", pictures_json(object)},

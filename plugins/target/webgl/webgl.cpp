@@ -201,7 +201,6 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         fixed_shadings[model.plugin->name] = fixed_json(model, object.shadings[i]);
     }
     const ExportedMesh mesh = scene.geometry->in_world_space(index);
-    const bool has_common = !object.emission_numbers.empty() || !object.occlusion_numbers.empty();
     Json json = {
         {"label", object.label},
         {"color", vector_json(object.color)},
@@ -211,11 +210,9 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         {"shadings", std::move(shadings)},
         {"fixed", {{"material", std::move(fixed_materials)}, {"shading", std::move(fixed_shadings)}}},
         {"closed", mesh.closed},
-        {"texture",
-         object.color_texture == ExportedObject::k_no_texture ? Json() : Json(object.color_texture)},
-        {"texture_repeats", object.color_texture_repeats},
+        {"color_texture", object.color_numbers.empty() ? Json() : Json(object.color_numbers.front().texture)},
         {"material", all_textured_numbers(object).empty() ? Json() : Json(index)},
-        {"common_material", has_common ? Json(scene.objects.size() + index) : Json()},
+        {"common_material", has_common_textures(object) ? Json(scene.objects.size() + index) : Json()},
         {"normal_map", object.normal_map == nullptr ? Json() : Json(index)},
         {"material_pictures", pictures_json(object)},
         {"mesh", mesh_json(scene, mesh, arrays)}};

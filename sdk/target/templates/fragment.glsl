@@ -29,7 +29,6 @@ void main() {
     float facing = 1.0;
 #endif
     vec3 color = at_vertex_color;
-@TEXTURE_COLOR@
 @MATERIAL@
     intensity = vec4(intensity_at(@PLACE@, point, color, facing), 1.0);
 #else

@@ -1,7 +1,6 @@
 uniform vec3 eye;
 uniform bool is_orthographic;
 uniform vec3 towards_observer;
-uniform vec3 object_color;
 
 // The intensity that a point of a surface sends to the observer. `color` multiplies the object's colour; `facing`:
 // -1 where an open surface is seen from behind.
@@ -14,7 +13,7 @@ vec3 intensity_at(vec3 place, ShadingPoint point, vec3 color, float facing) {
 #ifdef NEEDS_TANGENT
     s.tangent = normalize(point.dpdu - s.normal * dot(s.normal, point.dpdu));
 #endif
-    s.color = object_color * color;
+    s.color = @COLOR@ * color;
     s.position = vec3(0.0);
 #ifdef NEEDS_POSITION
     s.position = place;

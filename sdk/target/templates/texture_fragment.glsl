@@ -9,11 +9,23 @@ flat in vec3 at_p1;
 flat in vec3 at_p2;
 #endif
 flat in vec4 at_uv_edges;
-vec3 texture_seen(vec3 place, vec2 uv) {
-    vec3 line = is_orthographic ? -towards_observer : place - eye;
+#endif
+#ifdef READS_PICTURES
+#ifdef LIT_AT_FRAGMENT
+vec3 lit_place;
+vec2 lit_uv;
+vec3 material_texel(ColorTexture t, vec3 u, vec3 v) {
+    vec3 line = is_orthographic ? -towards_observer : lit_place - eye;
     float depth = is_orthographic ? 1.0 : -dot(towards_observer, line);
-    float level = color_texture_level(at_p1 - at_p0, at_p2 - at_p0, at_uv_edges.xy, at_uv_edges.zw, line, depth * pixel_right,
-                                      depth * pixel_up, vec2(color_texture.width, color_texture.height));
-    return color_texture_at(color_texture, uv, level);
+    vec2 along1 = vec2(dot(u.xy, at_uv_edges.xy), dot(v.xy, at_uv_edges.xy));
+    vec2 along2 = vec2(dot(u.xy, at_uv_edges.zw), dot(v.xy, at_uv_edges.zw));
+    float level = color_texture_level(at_p1 - at_p0, at_p2 - at_p0, along1, along2, line, depth * pixel_right, depth * pixel_up,
+                                      vec2(t.width, t.height));
+    vec3 at = vec3(lit_uv, 1.0);
+    return color_texture_at(t, vec2(dot(u, at), dot(v, at)), level);
 }
+#else
+// Light is evaluated at vertices.
+vec3 material_texel(ColorTexture t, vec3 u, vec3 v) { return vec3(0.0); }
+#endif
 #endif

@@ -42,7 +42,6 @@ void main() {
 @PASS_TEXTURE@
 #else
     vec3 color = vertex_color;
-@TEXTURE_COLOR@
 @MATERIAL@
     ShadingPoint point = ShadingPoint(face_normal, vertex_normal, barycentric, uv, dpdu, dpdv);
     front = intensity_at(place, point, color, 1.0);

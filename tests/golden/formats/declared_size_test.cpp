@@ -79,8 +79,8 @@ CommandResult rendered_with(const std::string& name, const std::string& bytes) {
     write_file(folder / "scene.toml",
                "version = 1\nobserver = {position = [0, 0, 4], look_at = [0, 0, 0]}\nshading = {model = "
                "\"phong\"}\nreflection = {model = \"lambert\"}\nlight = [{type = \"ambient\"}]\n"
-               "object = [{type = \"sphere\", color_texture = \"" +
-                   name + "\"}]\n");
+               "object = [{type = \"sphere\", color = {texture = \"" +
+                   name + "\"}}]\n");
     CommandSetup setup{.directory = folder};
     setup.prepare = [] {
         const rlimit time{5, 5}, memory{rlim_t{1500} << 20, rlim_t{1500} << 20};

@@ -62,7 +62,7 @@ def problem_of(candela: str, directory: Path, kind: str, chance, index: int) -> 
     (directory / f"a.{kind}").write_bytes(made_pictures.made(kind, chance) if index % 2 or kind not in DRAWN else
                                           mutation.mutated(chance.choice(sound), list(sound), chance, WORDS))
     if index % 5 < 4:
-        used = (f'environment = "a.{kind}"', "") if index % 5 == 0 else ("", f'color_texture = "a.{kind}"')
+        used = (f'environment = "a.{kind}"', "") if index % 5 == 0 else ("", f'color = {{ texture = "a.{kind}" }}')
         (directory / "scene.toml").write_text(SCENE.format(*used))
         done, wrong = mutation.run([candela, "render", "scene.toml", "-o", "out.png", "--threads", "2"], directory, codes=(0, 1, 3),
                                   most_memory=MOST_MEMORY)

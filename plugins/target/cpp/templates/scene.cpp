@@ -74,7 +74,6 @@ struct Mesh {
     Mesh mesh;
     vec3 position, rotation;  // degrees about x, then y, then z
     vec3 scale = vec3(1.0f);
-    vec3 color;
 @OBJECT_MEMBERS@
 @SHADOW_MEMBERS@
     std::vector<vec3> vertex_normal, face_normal;
@@ -213,7 +212,7 @@ vec3 intensity_at(const Object& o, vec3 place, const ShadingPoint& point@TRIANGL
     s.normal = (is_back ? -1.0f : 1.0f) * @MAPPED@;
     s.to_observer = k_is_perspective ? normalize(k_eye - place) : -k_forward;
 @TANGENT@
-    s.color = o.color@TIMES_TINT@;
+    s.color = @LIT@.color@TIMES_TINT@;
     Receiver r;
     r.position = place;
     r.normal = s.normal;

@@ -39,12 +39,3 @@ vec3 texture_at(ColorTexture t, const TexturePlace& at) {
     return color_texture_at(t, at.uv, level);
 }
 
-// The colour of an object's texture.
-vec3 texture_within(const Object& o, int triangle, vec3 b) {
-    return o.texture.levels == nullptr ? vec3(1.0f) : texture_at(o.texture, place_within(o, triangle, b));
-}
-
-vec3 texture_at_vertex(const Object& o, std::size_t v) {
-    return o.texture.levels == nullptr ? vec3(1.0f) : texture_at(o.texture, place_at_vertex(o, v));
-}
-

@@ -1,4 +1,4 @@
-// Pictures by which the colours of surfaces are multiplied.
+// Pictures that give numbers of surfaces.
 @FILE@
 struct ColorTexture {
     const std::vector<TextureLevel>* levels = nullptr;  // null: no texture

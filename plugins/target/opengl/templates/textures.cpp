@@ -43,16 +43,19 @@ Texture make_texture(const std::string& file) {
     return texture;
 }
 
-// Binds a texture for a program's shaders, to a unit of its own.
-void bind(const Texture& texture, bool repeats, GLuint program, const std::string& texels, const std::string& name, int unit) {
+// Binds a texture as that number of a material, to a unit of its own.
+void bind(const Texture& texture, bool repeats, GLuint program, std::size_t number) {
+    const std::string of_number = std::to_string(number), name = "material_texture_" + of_number;
+    const int unit = 6 + static_cast<int>(number);
     glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
     glBindTexture(GL_TEXTURE_2D, texture.name);
     const auto set_whole = [&](const std::string& of, int value) { set(program, {of.c_str(), Uniform::whole, {static_cast<float>(value), 0, 0}}); };
-    set_whole(texels, unit);
+    set_whole("material_texels_" + of_number, unit);
     set_whole(name + ".width", texture.width);
     set_whole(name + ".height", texture.height);
     set_whole(name + ".levels", texture.levels);
     set_whole(name + ".repeats", repeats ? 1 : 0);
+    set_whole(name + ".unit", static_cast<int>(number));
 }
 
 // How the line of sight moves from pixel to pixel.

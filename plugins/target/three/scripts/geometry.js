@@ -3,7 +3,7 @@ import { floatsOf, indicesOf } from "../../../../sdk/web/arrays.js";
 import { VertexArrays, boxOf, sizeOf } from "../../../../sdk/web/vertex_arrays.js";
 
 /** Whether a picture gives an object's colour or numbers of its material, or tilts its normals. */
-export const isTextured = ({ texture, material, normal_map }) => texture !== null || material !== null || normal_map !== null;
+export const isTextured = ({ material, normal_map }) => material !== null || normal_map !== null;
 
 /** For three.js's own materials: positions, normals and colours, by their usual names. */
 function usualGeometry({ position, normals, color, indices }) {

@@ -72,21 +72,16 @@ export class KernelMaterials {
     }
 
     /** The uniforms with which an object's textures are read. */
-    textureUniforms({ texture, texture_repeats, material_pictures, ...object }) {
+    textureUniforms({ material_pictures, ...object }) {
         const uniforms = {};
-        if (!isTextured({ texture, ...object })) return uniforms;
-        if (texture !== null) {
-            const { texels, size } = this.textures[texture];
-            Object.assign(uniforms, { color_texels: texels, color_texture: { value: { ...size, repeats: texture_repeats, unit: 0 } } });
-        }
+        if (!isTextured(object)) return uniforms;
         // Even a sampler that is not read needs a texture of its type.
-        const other = this.textures[texture ?? material_pictures[0][0]].texels;
-        if (texture === null) uniforms.color_texels = other;
+        const other = this.textures[material_pictures[0][0]].texels;
         for (let i = 0; i < this.mostPictures; ++i) uniforms[`material_texels_${i}`] = other;
         for (const [i, [picture, repeats]] of material_pictures.entries()) {
             const { texels, size } = this.textures[picture];
             uniforms[`material_texels_${i}`] = texels;
-            uniforms[`material_texture_${i}`] = { value: { ...size, repeats, unit: i + 1 } };
+            uniforms[`material_texture_${i}`] = { value: { ...size, repeats, unit: i } };
         }
         return uniforms;
     }
@@ -94,7 +89,7 @@ export class KernelMaterials {
     of(object) {
         const { shaders } = this.json, hasMaterial = object.material !== null;
         const common = HEADER + (object.closed ? "" : "#define TWO_SIDED\n") +
-            (hasMaterial ? "#define TEXTURED_MATERIAL\n" : "") + (object.texture !== null ? "#define TEXTURED_COLOR\n" : "") + [
+            (hasMaterial ? "#define TEXTURED_MATERIAL\n" : "") + [
             shaders.prelude, isTextured(object) ? shaders.texture : "", shaders.lights, shaders.reflections[object.reflection],
             shaders.shadings[object.shading], hasMaterial ? shaders.materials[object.material] : "",
             object.normal_map !== null ? shaders.normal_maps[object.normal_map] : "", "",

@@ -87,9 +87,8 @@ export function appearanceOf(settings) {
         const material = reflection === object.reflection ? object.material : object.common_material;
         return {
             shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
-            hasColorTexture: object.texture !== null,
             material, normalMap: object.normal_map,
-            isTextured: object.texture !== null || material !== null || object.normal_map !== null,
+            isTextured: material !== null || object.normal_map !== null,
             uniforms: [
                 ["object_index", { kind: "int", value: i }],
                 ["is_shadowed", { kind: "int", value: hasShadows && object.receives_shadows ? 1 : 0 }],

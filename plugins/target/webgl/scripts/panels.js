@@ -152,7 +152,7 @@ export class Panels {
             [swatch, element("span", { class: "title" }, isolated(displayName(object.label, "object", i))), models],
             i < INITIALLY_OPEN && this.scene.objects.length <= 3 * INITIALLY_OPEN,
             () => {
-                const { texture } = this.scene.objects[i];
+                const texture = this.scene.objects[i].color_texture;
                 const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
                 const of = (kind, model, values) => this.scene[`${kind}_models`][model].parameters.map(({ name }) =>
                     controls.of(`object.${i}.${values}.${model}.${name}`, name));
@@ -172,7 +172,7 @@ export class Panels {
                 .map((kind) => this.scene[`${kind}_models`][settings.modelOf(object, kind)].title).join(" · ");
         };
         const contentOf = () => {
-            const { color, materials, shadings, texture } = this.scene.objects[i];
+            const { color, materials, shadings, color_texture: texture } = this.scene.objects[i];
             return [color, materials, shadings, texture === null ? null : this.scene.textures[texture].title];
         };
         return this.register(section, displayName(object.label, "object", i), `object.${i}.`, contentOf);

@@ -11,7 +11,6 @@ import { scale } from "../../../../sdk/web/vectors.js";
 const POLL_MS = 2;
 const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
 const TABLES_UNIT = 3;
-const TEXTURE_UNIT = 4;
 const SHADOWS_UNIT = 5;
 const MATERIAL_UNIT = 6;  // and those after it
 
@@ -149,17 +148,11 @@ export class Renderer {
 
     /** Binds the textures of an object that has some; returns the uniforms with which they are read. */
     textureUniforms(index, { material, normalMap }) {
-        const { texture, texture_repeats, material_pictures } = this.scene.objects[index];
-        const uniforms = texture === null ? {} : this.textures[texture].bind(TEXTURE_UNIT, texture_repeats);
-        const pictures = material !== null || normalMap !== null ? material_pictures : [];
-        pictures.forEach(([picture, repeats], i) => Object.assign(uniforms,
-            this.textures[picture].bind(MATERIAL_UNIT + i, repeats, `material_texels_${i}`, `material_texture_${i}`, i + 1)));
+        if (material === null && normalMap === null) return [];
+        const pictures = this.scene.objects[index].material_pictures, uniforms = {};
+        pictures.forEach(([picture, repeats], i) => Object.assign(uniforms, this.textures[picture].bind(MATERIAL_UNIT + i, repeats, i)));
         // Even a sampler that is not read must refer to a texture of its type, and not to the picture that is being drawn.
-        const other = { kind: "int", value: texture !== null ? TEXTURE_UNIT : MATERIAL_UNIT };
-        if (texture !== null || pictures.length > 0) {
-            if (texture === null) uniforms.color_texels = other;
-            for (let i = pictures.length; i < this.mostPictures; ++i) uniforms[`material_texels_${i}`] = other;
-        }
+        for (let i = pictures.length; i < this.mostPictures; ++i) uniforms[`material_texels_${i}`] = { kind: "int", value: MATERIAL_UNIT };
         return Object.entries(uniforms);
     }
 

@@ -1,7 +1,7 @@
 import { levelsOf, sizeWithLevels } from "../../../../sdk/web/texture_levels.js";
 
 /**
- * A picture by which colours of surfaces are multiplied, on the GPU, with its mip levels. Texels are integers, which shaders
+ * A picture that gives numbers of surfaces, on the GPU, with its mip levels. Texels are integers, which shaders
  * filter themselves, since the precision of a device's filtering is unspecified.
  */
 export class Texture {
@@ -33,16 +33,17 @@ export class Texture {
     }
 
     /**
-     * Binds the texture to a unit; returns the uniforms with which it is read. `repeats`: whether it repeats beyond its edges;
-     * `sampler` and `name`: the uniforms; `number`: of the picture in its material, from 1 on, or 0.
+     * Binds the texture to a unit, as that number of an object's pictures; returns the uniforms with which it is read. `repeats`:
+     * whether it repeats beyond its edges.
      */
-    bind(unit, repeats, sampler = "color_texels", name = "color_texture", number = 0) {
+    bind(unit, repeats, number) {
+        const name = `material_texture_${number}`;
         const { gl, levels, picture: { width, height } } = this;
         gl.activeTexture(gl.TEXTURE0 + unit);
         gl.bindTexture(gl.TEXTURE_2D, this.texture);
         gl.activeTexture(gl.TEXTURE0);
         const wholes = {
-            [sampler]: unit, [`${name}.width`]: width, [`${name}.height`]: height, [`${name}.levels`]: levels,
+            [`material_texels_${number}`]: unit, [`${name}.width`]: width, [`${name}.height`]: height, [`${name}.levels`]: levels,
             [`${name}.repeats`]: repeats ? 1 : 0, [`${name}.unit`]: number,
         };
         return Object.fromEntries(Object.entries(wholes).map(([name, value]) => [name, { kind: "int", value }]));

@@ -13,11 +13,9 @@ namespace candela::target {
 /// lights, its reflection model, its shading model, vertex. The fragment shader is built in the same way. The
 /// others are for passes over the whole screen.
 ///
-/// If an object of the scene has a material with textures, `texture` is for objects that have such a material
-/// or a texture of their colour, or both, and is followed by "#define TEXTURED_COLOR" for the latter. An
-/// object with a material that has textures, and its own reflection model, has "#define TEXTURED_MATERIAL"
-/// before that model, and its text of `materials` behind its shading model; drawn with another model, its
-/// text of `common_materials` in the same way, unless that is empty. One with a normal map has its text of
+/// An object that textures give numbers of has "#define TEXTURED_MATERIAL" before its reflection model, and
+/// its text of `materials` behind its shading model; drawn with another model than its own, its text of
+/// `common_materials` in the same way, unless that is empty. One with a normal map has its text of
 /// `normal_maps` there as well.
 ///
 /// In a scene with emission, shaders read an object's emission_of() from `object_emission`; in one with
@@ -76,14 +74,14 @@ struct LightBlock {
 /// first nine attributes: at locations 9 to 11 the positions of its triangle's vertices, at 12 to 14 their
 /// unit normals. A target declares by TargetAbilities::triangle that it provides them.
 ///
-/// Shaders of an object with a texture read it from `color_texels` (RGBA16UI, NEAREST): the picture, and its
-/// mip levels in a row along its longer side, each from `longer - (longer >> (level - 1))` on: below a
-/// picture that is at least as wide as high, right of others. `color_texture` has the `width` and `height` of
-/// the picture, the number of `levels`, and whether it `repeats`. Where light is evaluated for each fragment,
-/// they also read the positions of the triangle's vertices, as above; at location 15 how the texture
-/// coordinates change from its first vertex to the second and to the third (u, v, u, v); and how the line of
-/// sight moves from pixel to pixel, `pixel_right` and `pixel_up`: vectors in metres, at a distance of 1 in
-/// perspective.
+/// Shaders of an object with textures read number i of them from `material_texels_<i>` (RGBA16UI, NEAREST):
+/// the picture, and its mip levels in a row along its longer side, each from `longer - (longer >> (level -
+/// 1))` on: below a picture that is at least as wide as high, right of others. `material_texture_<i>` has the
+/// `width` and `height` of the picture, the number of `levels`, whether it `repeats`, and i as its `unit`.
+/// Where light is evaluated for each fragment, they also read the positions of the triangle's vertices, as
+/// above; at location 15 how the texture coordinates change from its first vertex to the second and to the
+/// third (u, v, u, v); and how the line of sight moves from pixel to pixel, `pixel_right` and `pixel_up`:
+/// vectors in metres, at a distance of 1 in perspective.
 ///
 /// In a scene with shadows they read `shadow_tree` and `least_margin`, see ShadowTree; the `object_index`;
 /// `is_shadowed`, whether light is blocked on the object; the `picture_height` in pixels; `pixel_right` and
@@ -94,9 +92,7 @@ bool sees_triangles(const ExportedScene& scene);
 /// The blocks of the scene's light models.
 std::vector<LightBlock> light_blocks(const ExportedScene& scene);
 
-/// A picture that an object's material or normal map reads. Shaders read number i of them from
-/// `material_texels_<i>`, which is described by `material_texture_<i>` like `color_texture`, with `unit` = i
-/// + 1 as well.
+/// A picture that an object's material or normal map reads.
 struct MaterialPicture {
     std::size_t texture = 0;  // index into ExportedScene::textures
     bool repeats = true;
@@ -107,7 +103,7 @@ std::vector<MaterialPicture> material_pictures(const ExportedObject& object);
 /// The largest number of them that an object has.
 std::size_t most_material_pictures(const ExportedScene& scene);
 /// Shaders have 16 texture units; lights, tables, shadows and passes over the screen use some.
-constexpr std::size_t k_most_material_pictures = 9;
+constexpr std::size_t k_most_material_pictures = 10;
 
 /// "face", "vertex", "fragment".
 const char* rate_name(ShadingRate rate);

@@ -38,18 +38,22 @@ std::string texture_file(std::size_t number);
 /// A texture's file name without folders, for comments.
 std::string title_of(const ExportedTexture& texture);
 
+/// Whether textures give the colour of an object of the scene.
+bool has_color_textures(const ExportedScene& scene);
 /// The emission of an object, as intensities; with a texture, the factor of its values.
 Rgb emission_of(const ExportedObject& object, ColorEncoding encoding);
 /// Whether an object of the scene emits light, or reflects less ambient light than its model says.
 bool has_emission(const ExportedScene& scene);
 bool has_occlusion(const ExportedScene& scene);
 
-/// The numbers of an object that textures give: of its own material, its emission and its occlusion.
+/// The numbers of an object that textures give: of its own material, its colour, emission and occlusion.
 std::vector<ExportedTexturedNumber> all_textured_numbers(const ExportedObject& object);
+/// Whether textures give the object's colour, emission or occlusion, which it has with any reflection model.
+bool has_common_textures(const ExportedObject& object);
 
 /// The statements with which a program sets the numbers of an object that textures give, in C++ or GLSL:
 /// look-ups of texels, each once; assignments to members of `material` by a function number_of(); and to
-/// `emission`, which is the factor before, and `occlusion`.
+/// `color` and `emission`, which are factors before, and `occlusion`.
 struct MaterialStatements {
     std::string texels, assignments, common;
 };
@@ -57,6 +61,7 @@ struct MaterialNames {
     const char* indent;
     const char* texel_type;  // "const vec3"
     const char* material;    // the variable
+    const char* color;
     const char* emission;
     const char* occlusion;
     bool has_model = true;  // otherwise without the numbers of the material
