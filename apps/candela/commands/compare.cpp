@@ -20,6 +20,7 @@
 #include "cli/output_format.h"
 #include "cli/outputs.h"
 #include "cli/scene_compilation.h"
+#include "commands/luminance_option.h"
 #include "commands/variants.h"
 #include "compare/contact_sheet.h"
 #include "compare/differences.h"
@@ -155,7 +156,9 @@ class PaneRenderer {
         : request_(scene_request_from(line, registry)),
           output_(output),
           registry_(registry),
-          pixels_(pixels) {
+          pixels_(pixels),
+          luminance_(luminance_display_from(line)) {
+        luminance_.has_legend = false;
         request_.reflection.reset();
         request_.shading.reset();
         if (!request_.ask) return;
@@ -183,8 +186,12 @@ class PaneRenderer {
         }
         encoding_ = compiled->image.color_management;
         const auto term = std::ranges::find(variants, "--terms", &Variant::option);
-        if (term != variants.end() && term->value != "picture")
-            return TermRenderer(*compiled, 0).image(one_term(term->value, draft->scene), pixels_);
+        if (term != variants.end() && term->value != "picture") {
+            const NamedTerm named = one_term(term->value, draft->scene);
+            shows_luminance_ =
+                shows_luminance_ || (is_luminance(named) && pixels_ == candela::PixelType::byte);
+            return TermRenderer(*compiled, 0).image(named, pixels_, luminance_);
+        }
         candela::Film film(compiled->image.width, compiled->image.height, pixels_,
                            candela::display_of(*compiled));
         const auto statistics = candela::render(*compiled, film, {});
@@ -195,6 +202,10 @@ class PaneRenderer {
 
     int exit_code() const { return exit_code_; }
     candela::ColorEncoding encoding() const { return encoding_; }
+    /// Of all pictures that show luminances in false colours.
+    std::optional<LuminanceScale> luminance_scale() const {
+        return shows_luminance_ ? luminance_.scale : std::nullopt;
+    }
 
   private:
     bool has_news(const candela::Diagnostics& diagnostics) {
@@ -208,6 +219,8 @@ class PaneRenderer {
     const std::string& output_;
     candela::Registry& registry_;
     candela::PixelType pixels_;
+    LuminanceDisplay luminance_;
+    bool shows_luminance_ = false;
     candela::ColorEncoding encoding_ = candela::ColorEncoding::none;
     std::set<std::string> said_;
     int exit_code_ = 0;
@@ -225,6 +238,7 @@ int run_compare(const std::vector<std::string>& arguments) {
     line.options()("output,o", po::value<std::string>()->value_name("FILE")->default_value("comparison.png"),
                    "the sheet; its extension selects the format");
     add_variant_options(line);
+    add_luminance_option(line);
     line.options()("difference", "show how the other pictures differ from the first, in levels (1/255)")(
         "columns", po::value<int>()->value_name("N"), "how many pictures to put side by side")(
         "json", "print the sheet's layout and the differences as JSON");
@@ -282,7 +296,9 @@ int run_compare(const std::vector<std::string>& arguments) {
                        format.pixels, renderer.encoding());
     for (std::size_t i = 0; i < panes.size(); ++i)
         sheet.put(static_cast<int>(i), panes[i].film, panes[i].label);
-    candela::write_image(sheet.film(), format, output, registry, existing);
+    const auto scale = renderer.luminance_scale();
+    candela::write_image(scale ? with_legend(sheet.film(), *scale) : sheet.film(), format, output, registry,
+                         existing);
     if (line.has("json")) std::cout << json_of(panes, columns) << '\n';
     say_afterwards([&] {
         return fmt::format("{}: {} pictures of {} x {}\n", output == "-" ? "sheet" : output, panes.size(),

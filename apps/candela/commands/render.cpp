@@ -15,6 +15,7 @@
 #include "cli/output_format.h"
 #include "cli/outputs.h"
 #include "cli/scene_compilation.h"
+#include "commands/luminance_option.h"
 #include "commands/part_rendering.h"
 #include "commands/row_rendering.h"
 #include "console/exit_code.h"
@@ -52,11 +53,12 @@ struct OutputFiles {
     std::vector<fs::path> terms;
     const candela::OutputFormat& format;
     candela::Existing existing;
+    LuminanceDisplay luminance;
 };
 
 /// Writes the picture and its terms, all of them or none.
 void write_images(const candela::Film& film, const std::vector<NamedTerm>& terms, TermRenderer& renderer,
-                  const OutputFiles& files, int threads, candela::Registry& registry) {
+                  OutputFiles files, int threads, candela::Registry& registry) {
     candela::OutputFile picture(files.picture, files.existing);
     // Encoding takes about three nanoseconds per pixel.
     candela::with_threads(
@@ -66,8 +68,8 @@ void write_images(const candela::Film& film, const std::vector<NamedTerm>& terms
     for (std::size_t i = 0; i < files.terms.size(); ++i) {
         others.push_back(std::make_unique<candela::OutputFile>(files.terms[i], files.existing,
                                                                candela::Links::not_followed));
-        candela::write_image(renderer.image(terms[i], files.format.pixels), files.format, *others.back(),
-                             registry);
+        candela::write_image(renderer.image(terms[i], files.format.pixels, files.luminance), files.format,
+                             *others.back(), registry);
         others.back()->complete();
     }
     if (others.empty()) return picture.finish();
@@ -87,6 +89,7 @@ int render_image(const CommandLine& line) {
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
     const candela::OutputFormat format = output_format_from(line, output, registry);
+    const LuminanceDisplay luminance = luminance_display_from(line);
 
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
@@ -139,7 +142,8 @@ int render_image(const CommandLine& line) {
     if (format.has_layers && !terms.empty()) {
         write_with_layers(film, terms, term_renderer, format, output, registry, existing);
     } else {
-        write_images(film, terms, term_renderer, {output, term_files, format, existing}, threads, registry);
+        write_images(film, terms, term_renderer, {output, term_files, format, existing, luminance}, threads,
+                     registry);
     }
     const double write_ms = writing.milliseconds();
 
@@ -184,7 +188,9 @@ int run_render(const std::vector<std::string>& arguments) {
         "terms", po::value<std::string>()->value_name("TERM,..."),
         "also write the terms that make up the picture: diffuse, specular, normal, depth, light.NAME ... or "
         "all "
-        "(docs/user/explaining.md); as layers of an .exr, otherwise as files next to the picture")(
+        "(docs/user/explaining.md); as layers of an .exr, otherwise as files next to the picture");
+    add_luminance_option(line);
+    line.options()(
         "part", po::value<std::string>()->value_name("K/N"),
         "render only the K-th of N bands of rows, into the folder FILE.parts; candela assemble combines "
         "them")("verbose", "print how long each stage took");

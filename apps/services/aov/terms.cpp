@@ -43,6 +43,7 @@ constexpr KnownTerm k_terms[] = {
     {"surroundings", Term::surroundings, false, k_color, "surroundings"},
     {"emission", Term::emission, false, k_color, "emission"},
     {"background", Term::background, false, k_color, "background"},
+    {"luminance", Term::intensity, false, {""}, "luminance"},
     {"light", Term::intensity, true, k_color, "light"},
     {"n_dot_l", Term::n_dot_l, true, {""}, "n_dot_l"},
     {"visibility", Term::visibility, false, k_color, "visibility"},
@@ -246,6 +247,8 @@ std::vector<NamedTerm> terms_from(const std::vector<std::string>& words, const c
     return terms;
 }
 
+bool is_luminance(const NamedTerm& term) { return term.term == Term::intensity && !term.light; }
+
 int channel_count(const NamedTerm& term) {
     int count = 1;
     for (const std::string_view channel : std::span(known(term).channels).subspan(1))
@@ -276,17 +279,42 @@ std::vector<fs::path> files_of(const std::vector<NamedTerm>& terms, const fs::pa
     return files;
 }
 
-Film TermRenderer::values(const NamedTerm& term) {
+Film TermRenderer::rendered(Term term, std::optional<std::size_t> light) {
     Film film(scene_.image.width, scene_.image.height, candela::PixelType::real,
               candela::ColorEncoding::none);
-    candela::Renderer& renderer = candela::is_geometric(term.term) ? geometric_ : lit_;
-    renderer.render(scene_, film, {.term = term.term, .light = term.light, .threads = threads_});
+    candela::Renderer& renderer = candela::is_geometric(term) ? geometric_ : lit_;
+    renderer.render(scene_, film, {.term = term, .light = light, .threads = threads_});
     return film;
 }
 
-Film TermRenderer::image(const NamedTerm& term, candela::PixelType pixels) {
+Film TermRenderer::luminance() {
+    Planes light(rendered(Term::intensity));
+    auto& [r, g, b] = light.channel;
+    // A background that is only a colour of the picture is not light.
+    if (scene_.environment.is_uniform()) {
+        const Planes behind(rendered(Term::background));
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < r.size(); ++i) light.channel[c][i] -= behind.channel[c][i];
+    }
+    // ITU-R BT.709
+    for (std::size_t i = 0; i < r.size(); ++i)
+        r[i] = std::max(0.0f, 0.2126f * r[i] + 0.7152f * g[i] + 0.0722f * b[i]);
+    g = b = r;
+    return light.film(candela::PixelType::real, candela::ColorEncoding::none);
+}
+
+Film TermRenderer::values(const NamedTerm& term) {
+    return is_luminance(term) ? luminance() : rendered(term.term, term.light);
+}
+
+Film TermRenderer::image(const NamedTerm& term, candela::PixelType pixels, LuminanceDisplay& display) {
     Film film = values(term);
     if (pixels == candela::PixelType::real) return film;
+    if (is_luminance(term)) {
+        if (!display.scale) display.scale = scale_for(film);
+        Film colors = in_false_colors(film, *display.scale);
+        return display.has_legend ? with_legend(colors, *display.scale) : std::move(colors);
+    }
     Planes planes(film);
     if (is_intensity(term.term)) return planes.film(pixels, candela::display_of(scene_));
     if (facing_.empty()) facing_ = std::move(Planes(values({"facing", Term::facing})).channel[0]);

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "aov/luminance.h"
+
 import candela.plugins;
 import candela.render;
 import candela.scene;
@@ -26,6 +28,9 @@ struct NamedTerm {
 /// `origin` names its source.
 std::vector<NamedTerm> terms_from(const std::vector<std::string>& words, const candela::Scene& scene,
                                   const std::string& origin);
+
+/// Whether it is the luminance, which is shown in false colours.
+bool is_luminance(const NamedTerm& term);
 
 /// How many of the three channels of TermRenderer::values() the term uses; the others are equal or empty.
 int channel_count(const NamedTerm& term);
@@ -47,10 +52,13 @@ class TermRenderer {
     candela::Film values(const NamedTerm& term);
 
     /// The values for display: those that are not intensities are mapped to colours
-    /// (docs/user/explaining.md), unless the format's pixels are floats.
-    candela::Film image(const NamedTerm& term, candela::PixelType pixels);
+    /// (docs/user/explaining.md), unless the format's pixels are floats. A legend makes a picture wider.
+    candela::Film image(const NamedTerm& term, candela::PixelType pixels, LuminanceDisplay& display);
 
   private:
+    candela::Film rendered(candela::Term term, std::optional<std::size_t> light = {});
+    candela::Film luminance();
+
     const candela::RenderScene& scene_;
     int threads_;
     // Each keeps the visibility: with the picture's samples, and at the centre of each pixel.

@@ -169,6 +169,8 @@ TEST_CASE("terms of a square seen head on match values computed by hand") {
     CHECK(at("specular.R") == 0);
     CHECK(at("surroundings.R") == 0);
     CHECK(at("background.R") == 0);
+    // Of 0.9, 0.18 and 0, with the weights of Rec. 709.
+    CHECK(at("luminance") == Approx(0.2126 * 0.9 + 0.7152 * 0.18));
     CHECK(at("light.sun.R") == Approx(0.8));
     CHECK(at("light.sky.R") == Approx(0.1));
     CHECK(at("R") == Approx(0.9));
@@ -193,6 +195,7 @@ TEST_CASE("terms of a square seen head on match values computed by hand") {
     const auto beyond = [&](const std::string& channel) { return layers.at(channel, 1, 30); };
     CHECK(beyond("R") == Approx(0.2));
     CHECK(beyond("background.R") == Approx(0.2));
+    CHECK(beyond("luminance") == 0);
     CHECK(beyond("light.sun.R") == 0);
     CHECK(beyond("diffuse.R") == 0);
     CHECK(std::isinf(beyond("Z")));

@@ -100,7 +100,8 @@ class Scene:
     def terms(self, *names: str) -> dict[str, Picture]:
         """The terms that add up to the picture, and the values it was computed from, as ``float32`` by name: ``"ambient"``,
         ``"diffuse"``, ``"specular"``, ``"light.lamp"`` and the like, linear and of shape (height, width, 3); ``"normal"``, ``"position"``,
-        ``"depth"`` and so on, with one number (height, width), two or three for each pixel. Without names: all. See docs/user/explaining.md."""
+        ``"depth"``, ``"luminance"`` and so on, with one number (height, width), two or three for each pixel. Without names: all. See
+        docs/user/explaining.md."""
         return {name: Picture(array, self.core.is_srgb) for name, array in _candela.terms(self.core, names or ["all"]).items()}
 
     def explain(self, x: int, y: int) -> Explanation:
