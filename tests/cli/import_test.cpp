@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch_test_macros.hpp>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <numbers>
 #include <set>
 #include <sstream>
 #include <string>
@@ -234,11 +236,12 @@ TEST_CASE("import translates a glTF file's camera, lights and metallic-roughness
     CHECK(holds(result.out,
                 "position     = [0.0, 0.5, 4.0]\nlook_at      = [0.0, 0.5, 0.0]\nfov          = 30.0\n"));
     CHECK(holds(result.out, "width      = 1200\nheight     = 600\n"));
-    // 10 pi candela; a node turned by -90 degrees about x shines along -y. 0.2158605 is 128 in sRGB.
-    CHECK(holds(result.out,
-                "name        = \"beam\"\ntype        = \"spot\"\ncolor       = [255, 128, 0]\n"
-                "intensity   = 10.0\nposition    = [0.0, 2.0, 3.0]\ndirection   = [0.0, -1.0, 0.0]\n"
-                "inner_angle = 10.0\nouter_angle = 30.0\n"));
+    // A node turned by -90 degrees about x shines along -y. 0.2158605 is 128 in sRGB.
+    CHECK(
+        holds(result.out,
+              "name        = \"beam\"\ntype        = \"spot\"\ncolor       = [255, 128, 0]\n"
+              "intensity   = \"31.4159 cd\"\nposition    = [0.0, 2.0, 3.0]\ndirection   = [0.0, -1.0, 0.0]\n"
+              "inner_angle = 10.0\nouter_angle = 30.0\n"));
     CHECK(holds(result.out, "metallic  = 1.0\nroughness = 0.5\n"));
     CHECK(holds(result.err, "the picture of a texture of material 'gold' is missing"));
     expect(folder.run("render a.gltf -o a.ppm"), 0);
@@ -321,22 +324,55 @@ TEST_CASE("values of the wrong type in a glTF file become defaults, and cyclic n
     expect(folder.run("render b.gltf -o a.ppm"), 1, {"has two parents or contains itself"});
 }
 
-TEST_CASE("lights that would burn out the picture, or leave it black, are scaled together with a note") {
+namespace {
+
+/// A triangle with a lamp in front of it, of `intensity` candela or lux.
+std::string lit_triangle(const std::string& type, const std::string& intensity) {
+    return gltf(fmt::format(R"("nodes": [{{"mesh": 0}}, {{}},
+  {{"translation": [0, 0, 3], "extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
+"extensions": {{"KHR_lights_punctual": {{"lights": [{{"name": "lamp", "type": "{}", "intensity": {}}}]}}}})",
+                            type, intensity));
+}
+
+}  // namespace
+
+TEST_CASE("lights that would burn out the picture, or leave it black, keep their candela and are exposed") {
     const Folder folder;
     for (const char* const intensity : {"1e6", "1e-9"}) {
-        folder.write("a.gltf", gltf(fmt::format(R"("nodes": [{{"mesh": 0}}, {{}},
-  {{"translation": [0, 0, 3], "extensions": {{"KHR_lights_punctual": {{"light": 0}}}}}}],
-"extensions": {{"KHR_lights_punctual": {{"lights": [{{"type": "point", "intensity": {}}}]}}}})",
-                                                intensity)));
-        const CommandResult result = folder.run("render a.gltf -o a.ppm");
-        INFO(result.err);
-        REQUIRE(result.exit_code == 0);
-        CHECK(holds(result.err, "times as bright as in the file"));
+        folder.write("a.gltf", lit_triangle("point", intensity));
+        const CommandResult result =
+            expect(folder.run("render a.gltf -o a.ppm"), 0,
+                   {"'exposure' in [observer] suits its lights", "default is -0.263"});
+        // The key has limits, which lamps of a nanocandela exceed.
+        CHECK(holds(result.err, "times as bright as in the file") == (intensity == std::string("1e-9")));
         const Ppm picture = read_ppm(folder / "a.ppm");
         const int middle = picture.at(picture.width / 2, picture.height / 2)[1];
         CHECK(middle > 60);
         CHECK(middle < 255);
     }
+}
+
+TEST_CASE(
+    "a glTF file's lights are in candela and lux, exposed by 1 as in glTF-Sample-Viewer where they suit "
+    "that") {
+    const Folder folder;
+    folder.write("a.gltf", lit_triangle("directional", "5"));
+    const CommandResult plain = succeeded(folder.run("import a.gltf -o -"));
+    CHECK(holds(plain.out, "intensity = \"5 lx\"\n"));
+    CHECK_FALSE(holds(plain.out + plain.err, "exposure"));
+    folder.write("b.gltf", lit_triangle("directional", "50000"));
+    const CommandResult bright = succeeded(folder.run("import b.gltf -o -"));
+    CHECK(holds(bright.out, "intensity = \"50000 lx\"\n"));
+    // A white surface that faces the light sends 50000 / pi cd/m², which is to become 1.6: 1 / (1.2 * 2^EV)
+    // is 1.6 pi / 50000.
+    CHECK(holds(bright.out,
+                fmt::format("exposure     = {:.2f}\n", std::log2(50000 / (1.2 * 1.6 * std::numbers::pi)))));
+    // The same picture as of a light that sends 1.6 without an exposure, but for the rounding of the
+    // exposure.
+    folder.write("c.gltf", lit_triangle("directional", fmt::format("{}", 1.6 * std::numbers::pi)));
+    succeeded(folder.run("render b.gltf -o b.ppm"));
+    succeeded(folder.run("render c.gltf -o c.ppm"));
+    CHECK(largest_difference(read_ppm(folder / "b.ppm"), read_ppm(folder / "c.ppm")) <= 1);
 }
 
 TEST_CASE(

@@ -67,7 +67,7 @@ std::vector<Light> lights_for(const Camera& camera, double brightness) {
     return {key, fill, sky};
 }
 
-double expose(std::vector<Light>& lights, const Bounds& bounds) {
+double exposure_for(const std::vector<Light>& lights, const Bounds& bounds) {
     double sum = 0;
     for (const Light& light : lights) {
         const Vector way = light.position - bounds.center();
@@ -77,9 +77,7 @@ double expose(std::vector<Light>& lights, const Bounds& bounds) {
     }
     constexpr double k_least = 0.2, k_most = 6, k_good = 1.6;
     if (!(sum > 0) || !std::isfinite(sum) || (sum >= k_least && sum <= k_most)) return 1;
-    const double factor = k_good / sum;
-    for (Light& light : lights) light.intensity *= factor;
-    return factor;
+    return k_good / sum;
 }
 
 bool separate(std::vector<Light>& lights, const Camera& camera, const Bounds& bounds) {

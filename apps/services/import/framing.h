@@ -22,9 +22,9 @@ Camera camera_for(const Bounds& bounds, double aspect);
 /// A key light over the observer's left shoulder, a weaker one from the right, and light from all around.
 std::vector<Light> lights_for(const Camera& camera, double brightness);
 
-/// Scales the lights to an exposure at which a white surface is neither black nor burnt out; returns the
-/// factor.
-double expose(std::vector<Light>& lights, const Bounds& bounds);
+/// The factor by which an exposure multiplies the lights' luminances so that a white surface is neither black
+/// nor burnt out; 1 if it is neither without.
+double exposure_for(const std::vector<Light>& lights, const Bounds& bounds);
 
 /// Moves each light that shares its position with another or with the camera along the line of sight, by a
 /// thousandth of its distance: a scene allows only one thing at a position. Returns whether any was moved.

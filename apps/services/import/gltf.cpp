@@ -197,6 +197,7 @@ class Reader {
         // Candela's models have no factor of 1 / pi in what they reflect.
         constexpr double k_brightest = 1e30;  // so that sums of several stay finite
         result.intensity = std::clamp(number(light, "intensity", 1), 0.0, k_brightest) * std::numbers::inv_pi;
+        result.is_physical = true;
         result.position = place.origin;
         result.direction = unit(-1 * place.z);
         if (length(result.direction) == 0) return model_.note("a light without a direction is left out");

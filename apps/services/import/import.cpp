@@ -18,6 +18,7 @@
 import candela.api;
 import candela.geometry;
 import candela.plugins;
+import candela.scene;
 import candela.util;
 
 namespace fs = std::filesystem;
@@ -148,8 +149,29 @@ double brightness_for(const Model& model) {
     return brightest > 1 ? 1 / brightest : 1;
 }
 
-/// Gives unlit materials their own brightness in the ambient light of the scene.
-void show_unlit(Model& model, const std::vector<Light>& lights) {
+/// The exposure of a file's own lights. glTF-Sample-Viewer shows a luminance of 1 cd/m² as 1, unless its user
+/// moves a slider, and so does a scene without an exposure. Returns the factor by which luminances are
+/// multiplied.
+double expose(Model& model, const Bounds& bounds, Setting& setting) {
+    const double factor = exposure_for(setting.lights, bounds);
+    if (factor == 1) return 1;
+    // As in exposure_factor(), in two decimals, and within the limits of the key.
+    constexpr double k_limit = 24;
+    const double value = std::round(100 * -std::log2(1.2 * factor)) / 100;
+    setting.exposure = std::clamp(value, -k_limit, k_limit);
+    const double exposed = double{candela::exposure_factor(static_cast<float>(*setting.exposure))};
+    model.note(
+        fmt::format("'exposure' in [observer] suits its lights; the file has none, and "
+                    "glTF-Sample-Viewer's default is {:.3f}, which shows 1 cd/m² as white",
+                    candela::k_unexposed));
+    if (value == *setting.exposure) return exposed;
+    for (Light& light : setting.lights) light.intensity *= factor / exposed;
+    model.note(fmt::format("its lights are {:.3g} times as bright as in the file", factor / exposed));
+    return exposed;
+}
+
+/// Gives unlit materials their own brightness in the ambient light of the scene, as exposed.
+void show_unlit(Model& model, const std::vector<Light>& lights, double exposed) {
     Vector ambient{};
     for (const Light& light : lights)
         for (std::size_t k = 0; k < 3 && light.type == "ambient"; ++k)
@@ -158,7 +180,7 @@ void show_unlit(Model& model, const std::vector<Light>& lights) {
     for (Material& material : model.materials) {
         if (material.reflection != "unlit") continue;
         std::vector<double> brightness;
-        for (const double channel : ambient) brightness.push_back(1 / channel);
+        for (const double channel : ambient) brightness.push_back(1 / (exposed * channel));
         material.values = {{"ka", std::move(brightness)}};
     }
 }
@@ -232,22 +254,20 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     setting.look_at = setting.camera.position + ahead * unit(setting.camera.towards);
     if (!model.camera) setting.look_at = is_still_seen ? bounds.center() : animator.bounds().center();
     setting.lights = model.lights;
+    double exposed = 1;
     if (setting.lights.empty()) {
         setting.lights = lights_for(setting.camera, brightness_for(model));
     } else {
         // Makes parts that the lights do not reach dark rather than black.
         constexpr double k_little = 0.08;
-        const double factor = expose(setting.lights, bounds);
-        if (factor != 1)
-            model.note(fmt::format(
-                "its lights are {:.3g} times as bright as in the file, which has no exposure", factor));
+        exposed = expose(model, bounds, setting);
         if (separate(setting.lights, setting.camera, bounds))
             model.note(
                 "lights at the position of another light or the camera are moved slightly along the line of "
                 "sight");
-        setting.lights.push_back({.name = "sky", .type = "ambient", .intensity = k_little});
+        setting.lights.push_back({.name = "sky", .type = "ambient", .intensity = k_little / exposed});
     }
-    show_unlit(model, setting.lights);
+    show_unlit(model, setting.lights, exposed);
     animator.take_view(setting);
     animator.note();
     setting.room = room_for(animator.bounds(), setting.camera, setting.lights);

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include "import/vectors.h"
@@ -78,6 +79,7 @@ class Writer {
         // Pictures of any other size show the same frame.
         const double aspect = camera.aspect > 0.1 && camera.aspect < 10 ? camera.aspect : 4.0 / 3;
         add("frame_aspect", real(std::floor(1e3 * aspect) / 1e3));
+        if (setting_.exposure) add("exposure", fmt::format("{:.2f}", *setting_.exposure));
         end();
         begin("[image]");
         add("width", fmt::format("{}", std::lround(k_height * aspect)));
@@ -163,7 +165,9 @@ class Writer {
         light_names_.push_back(add_name(candela::printable(light.name)));
         add("type", candela::toml_text(light.type));
         add("color", color(light.color));
-        add("intensity", real(light.intensity));
+        add("intensity", light.is_physical ? fmt::format("\"{:.6g} {}\"", std::numbers::pi * light.intensity,
+                                                         light.has_position() ? "cd" : "lx")
+                                           : real(light.intensity));
         if (light.has_position()) add("position", vector_text(light.position, setting_.tolerance));
         if (light.type == "directional" || light.type == "spot")
             add("direction", vector_text(direction(light.direction)));

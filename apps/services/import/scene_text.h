@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct Setting {
     Vector look_at{};
     Vector room{};  // width, height, depth
     std::vector<Light> lights;
+    std::optional<double> exposure{};  // an exposure value at ISO 100
     bool has_vertex_colors = false;
     bool is_textured = false;  // it has texture coordinates
     bool is_closed = false;

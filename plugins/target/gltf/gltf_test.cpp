@@ -220,10 +220,10 @@ material = {kd = 1, ka = 0}
     has("position     = [1.0, 2.0, 4.0]");
     has("fov          = 40.0");
     has("color     = [255, 200, 100]");
-    has("intensity = 12.0");
+    has("intensity = \"37.6991 cd\"");
     has("position  = [1.5, 3.0, 2.0]");
     has("color     = [250, 240, 230]");
-    has("intensity = 0.5");
+    has("intensity = \"1.5708 lx\"");
     has("direction = [0.33333, -0.66667, -0.66667]");
     CHECK(holds(back, "[200, 100, 50]"));
     CHECK(holds(back, "[90, 160, 220]"));
