@@ -52,12 +52,16 @@ struct Unsupported {
 
 /// The triangles of a file, on the file's vertices, in object space.
 struct Surface {
-    Vectors position;              // per vertex
-    Vectors normal;                // per vertex, of any length, zero where the file has none; or empty
-    Array<float> u, v;             // per vertex, or empty
-    Vectors color;                 // per vertex, 0 to 1 as the file has them, or empty
-    Array<std::uint32_t> indices;  // three per triangle, < position.size()
-    Vectors facet_normal;          // per triangle, unit, zero where the file's is none; or empty
+    Vectors position;   // per vertex
+    Vectors normal;     // per vertex, of any length, zero where the file has none; or empty
+    Array<float> u, v;  // per vertex, or empty
+    /// The direction of dp/du per vertex, unit, zero where the file has none or no normal; and 1 or -1, by
+    /// which the cross product of normal and tangent is on the side of dp/dv. Or both empty.
+    Vectors tangent;
+    Array<float> tangent_side;
+    Vectors color;                         // per vertex, 0 to 1 as the file has them, or empty
+    Array<std::uint32_t> indices;          // three per triangle, < position.size()
+    Vectors facet_normal;                  // per triangle, unit, zero where the file's is none; or empty
     std::vector<std::uint32_t> smoothing;  // per triangle: its smoothing group; or empty: all k_by_angle
 
     bool is_single = false;          // the file itself has positions in single precision

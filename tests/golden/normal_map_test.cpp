@@ -11,6 +11,7 @@
 #include "golden/image.h"
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/gltf_square.h"
 
 namespace {
 
@@ -60,21 +61,25 @@ struct Square {
     double observer_z = 4;
 };
 
-Image rendered(const Square& square) {
+Image rendered(const Square& square, const std::string& file, const std::string& content) {
     const auto folder = scratch_directory();
-    write_file(folder / "square.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\n" +
-                                          square.corners_uv + "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n");
+    write_file(folder / file, content);
     write_file(folder / "p.ppm", ppm(square.picture));
     return render_floats(
-        folder,
-        fmt::format("[observer]\nposition = [0, 0, {0}]\nlook_at = [0, 0, 0]\nprojection = "
-                    "\"orthographic\"\nheight = 2\n[image]\nwidth = {1}\nheight = {1}\n[shading]\n"
-                    "model = \"phong\"\n[reflection]\nmodel = \"lambert\"\n[[light]]\ntype = "
-                    "\"directional\"\ndirection = [-0.48, -0.6, {2}]\n[[object]]\ntype = \"mesh\"\n"
-                    "file = \"square.obj\"\nappearance_imported = true\ncolor = [255, 255, 255]\n{3}\n"
-                    "{4}\n[object.material]\nka = 0\nkd = 1\n",
-                    square.observer_z, k_size, square.observer_z > 0 ? -0.64 : 0.64, square.more,
-                    square.map));
+        folder, fmt::format("[observer]\nposition = [0, 0, {0}]\nlook_at = [0, 0, 0]\nprojection = "
+                            "\"orthographic\"\nheight = 2\n[image]\nwidth = {1}\nheight = {1}\n[shading]\n"
+                            "model = \"phong\"\n[reflection]\nmodel = \"lambert\"\n[[light]]\ntype = "
+                            "\"directional\"\ndirection = [-0.48, -0.6, {2}]\n[[object]]\ntype = \"mesh\"\n"
+                            "file = \"{5}\"\nappearance_imported = true\ncolor = [255, 255, 255]\n{3}\n"
+                            "{4}\n[object.material]\nka = 0\nkd = 1\n",
+                            square.observer_z, k_size, square.observer_z > 0 ? -0.64 : 0.64, square.more,
+                            square.map, file));
+}
+
+Image rendered(const Square& square) {
+    return rendered(square, "square.obj",
+                    "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvn 0 0 1\n" + square.corners_uv +
+                        "f 1/1/1 2/2/1 3/3/1\nf 1/1/1 3/3/1 4/4/1\n");
 }
 
 /// `normal`: of a pixel's column and row.
@@ -129,6 +134,21 @@ TEST_CASE("golden: a normal map is turned and mirrored with the texture coordina
                 const Vector n = some_normal(k_size - 1 - x, y);
                 return Vector{-n[0], n[1], n[2]};
             });
+    }
+}
+
+TEST_CASE("golden: a normal map of a glTF file refers to the file's tangents") {
+    // Not those of the texture coordinates, so that a mistake shows; mirrored with -1.
+    for (const double side : {1.0, -1.0}) {
+        GltfSquare square;
+        std::vector<float> tangents;
+        for (int i = 0; i < 4; ++i)
+            tangents.insert(tangents.end(), {0.6f, 0.8f, 0, static_cast<float>(side)});
+        square.primitive()["attributes"]["TANGENT"] = square.floats("VEC4", tangents);
+        require_lit(rendered({.map = k_map}, "square.glb", square.glb()), [&](int x, int y) {
+            const Vector n = some_normal(x, y);
+            return Vector{0.6 * n[0] - side * 0.8 * n[1], 0.8 * n[0] + side * 0.6 * n[1], n[2]};
+        });
     }
 }
 

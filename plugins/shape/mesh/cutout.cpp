@@ -189,6 +189,9 @@ class Cutter {
             };
             add_mean(from_.position, result_.position);
             add_mean(from_.normal, result_.normal);
+            add_mean(from_.tangent, result_.tangent);
+            if (!from_.tangent_side.empty())
+                result_.tangent_side.push_back(mean(from_.tangent_side) < 0 ? -1.0f : 1.0f);
             add_mean(from_.color, result_.color);
             result_.u.push_back(mean(from_.u));
             result_.v.push_back(mean(from_.v));

@@ -155,8 +155,9 @@ class Orientation {
         for (std::uint32_t i = 0; i < surface_.normal.size(); ++i) {
             // A place that no triangle uses belongs to no part.
             const std::uint32_t place = corners_.place(i);
-            if (!corners_.at(place).empty() && agreements[parts_.of_place(place)] < 0)
-                surface_.normal.span().set(i, -surface_.normal.span()[i]);
+            if (corners_.at(place).empty() || agreements[parts_.of_place(place)] >= 0) continue;
+            surface_.normal.span().set(i, -surface_.normal.span()[i]);
+            if (!surface_.tangent_side.empty()) surface_.tangent_side[i] = -surface_.tangent_side[i];
         }
     }
 

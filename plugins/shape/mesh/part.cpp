@@ -109,6 +109,8 @@ mesh_io::Surface part_of(const mesh_io::Surface& surface, const TrianglesByMater
     const std::vector<std::uint32_t> vertices = renumbered(result.indices);
     result.position = picked(surface.position, vertices);
     result.normal = picked(surface.normal, vertices);
+    result.tangent = picked(surface.tangent, vertices);
+    result.tangent_side = picked(surface.tangent_side, vertices);
     result.color = picked(surface.color, vertices);
     result.u = picked(surface.u, vertices);
     result.v = picked(surface.v, vertices);

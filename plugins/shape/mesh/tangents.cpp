@@ -213,6 +213,18 @@ class Builder {
             set(corner, share * size_u * unit(along_u), share * size_v * unit(along_v));
     }
 
+    /// Turns derivatives to the file's own tangent, if it has one.
+    void turn(std::uint32_t vertex, Vec3& dpdu, Vec3& dpdv) const {
+        if (surface_.tangent.empty()) return;
+        const Vec3 n = normal_[vertex], t = surface_.tangent.span()[source(vertex)];
+        const Vec3 b = surface_.tangent_side[source(vertex)] * unit(cross(n, t));
+        if (b == Vec3{}) return;
+        // Without an area in the texture, there are no lengths.
+        const auto size_or_one = [](Vec3 v) { return v == Vec3{} ? 1 : length(v); };
+        dpdu = size_or_one(dpdu) * t;
+        dpdv = size_or_one(dpdv) * b;
+    }
+
     /// Gives a corner's vertex these derivatives, or a copy of the vertex if it has others already.
     void set(std::size_t corner, Vec3 dpdu, Vec3 dpdv) {
         SplitVertices& to = result_.vertices;
@@ -235,6 +247,7 @@ class Builder {
             result_.dpdv.push_back({});
         }
         to.indices[corner] = own;
+        turn(vertex, dpdu, dpdv);
         result_.dpdu.span().set(own, dpdu);
         result_.dpdv.span().set(own, dpdv);
     }

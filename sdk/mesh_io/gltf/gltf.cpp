@@ -39,14 +39,15 @@ class Reader {
         surface_.files = std::move(document_.files);
         surface_.is_color_linear = true;
         if (has_opacity_) surface_.losses.emplace_back("the opacity of vertices");
-        const auto note = [&](std::size_t count, const char* what, const char* then) {
+        const auto note = [&](std::size_t count, const char* what, const char* then,
+                              const char* problem = "not finite") {
             if (count > 0)
-                surface_.notes.push_back(fmt::format("has {} {} that {} not finite, which {} {}", count,
-                                                     count == 1 ? what : std::string(what) + 's',
-                                                     count == 1 ? "is" : "are", count == 1 ? "is" : "are",
-                                                     then));
+                surface_.notes.push_back(fmt::format(
+                    "has {} {} that {} {}, which {} {}", count, count == 1 ? what : std::string(what) + 's',
+                    count == 1 ? "is" : "are", problem, count == 1 ? "is" : "are", then));
         };
         note(bad_normals_, "normal", "computed from the triangles instead");
+        note(bad_tangents_, "tangent", "computed from the triangles instead", "unusable");
         note(bad_uv_, "texture coordinate", "0 instead");
         return std::move(surface_);
     }
@@ -105,6 +106,9 @@ class Reader {
         has_normals_ = all_normals || std::ranges::any_of(placed, [](const Placed& one) {
                            return one.primitive->attributes.contains("NORMAL");
                        });
+        has_tangents_ = any_uv && std::ranges::any_of(placed, [](const Placed& one) {
+                            return has_tangents(one.primitive->attributes);
+                        });
         has_uv_ = any_uv;
         has_color_ = any_color;
     }
@@ -135,6 +139,7 @@ class Reader {
             push_back(surface_.position, {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]});
         }
         if (has_normals_) add_normals(attributes, placed, pose, count, is_mirrored);
+        if (has_tangents_) add_tangents(attributes, pose, count, is_mirrored);
         if (has_uv_) add_uv(attributes, count);
         if (has_color_) add_colors(attributes, count);
         add_triangles(placed, first, count, is_mirrored);
@@ -161,6 +166,46 @@ class Reader {
                 ++bad_normals_;
             }
             push_back(surface_.normal, n);
+        }
+    }
+
+    /// glTF's tangents refer to its normals, and are without meaning if these are missing.
+    static bool has_tangents(const std::map<std::string, int>& attributes) {
+        return attributes.contains("TANGENT") && attributes.contains("NORMAL");
+    }
+
+    void add_tangents(const std::map<std::string, int>& attributes, const Pose& pose, std::size_t count,
+                      bool is_mirrored) {
+        const std::size_t first = surface_.tangent.size();
+        for (std::size_t i = 0; i < count; ++i) {
+            surface_.tangent.push_back({});
+            surface_.tangent_side.push_back(1);
+        }
+        if (!has_tangents(attributes)) return;
+        std::optional<Accessor> tangent;
+        std::array<Array<double>, 3> values;
+        try {
+            tangent.emplace(accessor(attributes.at("TANGENT"), 4));
+            require_as_many(*tangent, count, "tangents");
+            values = read(*tangent);
+            pose.morph("TANGENT", values);
+        } catch (const BadFile&) {
+            // They can be computed, as they are for files without.
+            bad_tangents_ += count;
+            return;
+        }
+        const Array<double> side = tangent->read(3);
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::array<double, 3> v = {values[0][i], values[1][i], values[2][i]};
+            const std::array<double, 3> t = unit(pose.of(i).linear(v), 1);
+            if (!is_finite(v) || !is_finite(t) || !std::isfinite(side[i])) {
+                ++bad_tangents_;
+                continue;
+            }
+            surface_.tangent.span().set(
+                first + i, {static_cast<float>(t[0]), static_cast<float>(t[1]), static_cast<float>(t[2])});
+            // The world's cross product of normal and tangent is the mirror image of theirs in a mirror.
+            surface_.tangent_side[first + i] = (side[i] < 0) == is_mirrored ? 1.0f : -1.0f;
         }
     }
 
@@ -291,10 +336,11 @@ class Reader {
     std::vector<Affine> nodes_;                 // where there are skins
     std::optional<std::uint32_t> no_material_;  // its number, for primitives without a material
     bool has_normals_ = false;
+    bool has_tangents_ = false;
     bool has_uv_ = false;
     bool has_color_ = false;
     bool has_opacity_ = false;
-    std::size_t bad_normals_ = 0, bad_uv_ = 0;
+    std::size_t bad_normals_ = 0, bad_tangents_ = 0, bad_uv_ = 0;
 };
 
 }  // namespace

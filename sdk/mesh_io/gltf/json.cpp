@@ -32,8 +32,8 @@ Json copies(const Json& json, const char* array, std::initializer_list<const cha
     return result;
 }
 
-constexpr std::array k_attributes = {"POSITION", "NORMAL",    "TEXCOORD_0", "COLOR_0",
-                                     "JOINTS_0", "WEIGHTS_0", "JOINTS_1",   "WEIGHTS_1"};
+constexpr std::array k_attributes = {"POSITION", "NORMAL",   "TANGENT",   "TEXCOORD_0", "COLOR_0",
+                                     "JOINTS_0", "JOINTS_1", "WEIGHTS_0", "WEIGHTS_1"};
 
 const Json* meshopt_of(const Json& view) {
     return extension_of(view, "EXT_meshopt_compression", "KHR_meshopt_compression");
@@ -147,8 +147,8 @@ class Geometries {
         if (is_morphed_) {
             Json targets = Json::array();
             for (const Json& target : array_of(from, "targets")) {
-                targets.push_back(only(target, {"POSITION", "NORMAL"}));
-                for (const char* const name : {"POSITION", "NORMAL"})
+                targets.push_back(only(target, {"POSITION", "NORMAL", "TANGENT"}));
+                for (const char* const name : {"POSITION", "NORMAL", "TANGENT"})
                     need_accessor(index_of(targets.back(), name));
             }
             if (!targets.empty()) result["targets"] = std::move(targets);

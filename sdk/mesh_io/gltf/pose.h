@@ -19,7 +19,8 @@ class Pose {
     /// `nodes`: from node_transformations(). Throws BadFile.
     Pose(const Document& document, const Placed& placed, std::size_t count, const std::vector<Affine>& nodes);
 
-    /// Adds the morph targets of `attribute`, "POSITION" or "NORMAL", to its components.
+    /// Adds the morph targets of `attribute`, "POSITION", "NORMAL" or "TANGENT", to its first three
+    /// components.
     void morph(const char* attribute, std::array<Array<double>, 3>& values) const;
     /// The transformation to the world of a vertex.
     Affine of(std::size_t vertex) const;
