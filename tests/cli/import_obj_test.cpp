@@ -245,10 +245,9 @@ TEST_CASE(
     CHECK(is_red(rendered(folder, "a.obj").image.middle()));
 }
 
-TEST_CASE("norm is a normal map, and so is a bump map of normals; heights have no unit") {
+TEST_CASE("norm is a normal map, and so is a bump map of normals") {
     const Folder folder;
     folder.write("n.ppm", "P6\n2 1\n255\n\x70\x80\xf0\x90\x80\xf0");
-    folder.write("h.ppm", "P6\n2 1\n255\n\x80\x80\x80\x90\x90\x90");
     folder.write("a.obj", square("a.mtl", "m"));
     const auto imported = [&](const char* statement) {
         folder.write("a.mtl", std::string("newmtl m\nKd 1 1 1\n") + statement + "\n");
@@ -258,10 +257,38 @@ TEST_CASE("norm is a normal map, and so is a bump map of normals; heights have n
                 "normal_map          = { texture = \"n.ppm\", wrap = \"clamp\" }\n"));
     CHECK(holds(imported("map_Bump -bm 0.5 n.ppm").out,
                 "normal_map          = { texture = \"n.ppm\", scale = 0.5 }\n"));
-    const CommandResult heights = imported("bump h.ppm");
-    CHECK_FALSE(holds(heights.out, "normal_map"));
-    CHECK(holds(heights.err, "a bump map is left out, since the unit of its heights is unknown"));
     imported("norm n.ppm");
+    CHECK_FALSE(holds(rendered(folder, "a.obj").result.err, "warning"));
+}
+
+TEST_CASE("a bump map's white is a hundredth of the side of its picture on the surface above black") {
+    const Folder folder;
+    folder.write("h.ppm", "P6\n2 1\n255\n\x80\x80\x80\x90\x90\x90");
+    // A wall of 3 by 12 metres, and in another material one that is ten times as large.
+    const auto imported = [&](const std::string& statement, double across, double up) {
+        const auto wall = [&](double scale) {
+            return fmt::format("v 0 0 0\nv {0} 0 0\nv {0} {1} 0\nv 0 {1} 0\n", 3 * scale, 12 * scale);
+        };
+        const std::string uv = fmt::format("vt 0 0\nvt {0} 0\nvt {0} {1}\nvt 0 {1}\n", across, up);
+        folder.write("a.obj", "mtllib a.mtl\n" + wall(1) + wall(10) + uv +
+                                  "usemtl m\nf 1/1 2/2 3/3 4/4\nusemtl n\nf 5/1 6/2 7/3 8/4\n");
+        folder.write("a.mtl", fmt::format("newmtl m\n{0}\nnewmtl n\n{0}\n", statement));
+        const CommandResult result = succeeded(folder.run("import a.obj -o -"));
+        CHECK_FALSE(holds(result.err, "bump"));
+        return result.out;
+    };
+    // Once over the wall: 6 metres are the side of a square of the same area.
+    const std::string once = imported("bump h.ppm", 1, 1);
+    CHECK(holds(once, "bump_map            = { texture = \"h.ppm\", height = 0.06 }\n"));
+    CHECK(holds(once, "bump_map            = { texture = \"h.ppm\", height = 0.6 }\n"));
+    // Eight times over it, mirrored, and lower.
+    const std::string often = imported("map_Bump -bm -0.5 -clamp on h.ppm", -2, 4);
+    CHECK(holds(often, fmt::format("height = {:.4g}, wrap = \"clamp\" }}\n", -0.03 / std::sqrt(8))));
+    CHECK(holds(often, fmt::format("height = {:.4g}, wrap = \"clamp\" }}\n", -0.3 / std::sqrt(8))));
+    // Onto a line of the picture.
+    CHECK_FALSE(holds(imported("bump h.ppm", 1, 0), "bump_map"));
+    CHECK_FALSE(holds(imported("bump -bm 0 h.ppm", 1, 1), "bump_map"));
+    imported("bump h.ppm", 1, 1);
     CHECK_FALSE(holds(rendered(folder, "a.obj").result.err, "warning"));
 }
 

@@ -11,6 +11,7 @@
 #include "import/animation.h"
 #include "import/framing.h"
 #include "import/geometry.h"
+#include "import/heights.h"
 #include "import/readers.h"
 #include "import/scene_text.h"
 #include "import/vectors.h"
@@ -235,6 +236,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
             material.maps.clear();
         }
     }
+    if (geometry.has_uv) measure_heights(model, source, geometry, registry);
     for (const Image& image : model.images)
         setting.images.push_back(image.content.empty()
                                      ? request.name_of_image(image.file)

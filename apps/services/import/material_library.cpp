@@ -208,13 +208,7 @@ void MaterialLibraries::tilt_normals(const Description& from, Material& to) {
     constexpr double k_near = 0.15, k_least_blue = 0.6;
     const bool has_normals = std::abs(mean[0] - 0.5) < k_near && std::abs(mean[1] - 0.5) < k_near &&
                              mean[2] > k_least_blue && mean[2] > mean[0] + k_near / 2;
-    if (is_bump && !has_normals)
-        return model_.count(
-            "bump maps",
-            "a bump map is left out, since the unit of its heights is unknown; an object's "
-            "bump_map has heights in metres",
-            "{} bump maps are left out, since the unit of their heights is unknown; an object's "
-            "bump_map has heights in metres");
+    to.has_heights = is_bump && !has_normals;
     to.normals = placed({.parameter = {},
                          .image = picture->index,
                          .scale = {is_bump ? std::clamp(map.multiplier, -1e3, 1e3) : 1}},

@@ -90,6 +90,7 @@ struct Material {
     std::vector<std::pair<std::string, std::vector<double>>> values{};  // parameters of the reflection model
     std::vector<ParameterMap> maps{};       // of parameters whose means are in `values`
     std::optional<ParameterMap> normals{};  // a normal map, whose scale makes it steeper
+    bool has_heights = false;               // it is a bump map instead, and its scale the height of white
     Vector emission{0, 0, 0};               // 0-255, unless it is one of the maps
     double emission_strength = 1;
     std::optional<ParameterMap> color_map{};  // instead of `color`

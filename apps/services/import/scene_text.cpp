@@ -212,7 +212,8 @@ class Writer {
             add("color", setting_.has_vertex_colors ? "[255, 255, 255]" : "[200, 200, 200]");
         }
         if (material != nullptr && material->normals && setting_.is_textured)
-            add("normal_map", text_of(*material->normals));
+            add(material->has_heights ? "bump_map" : "normal_map",
+                text_of(*material->normals, material->has_heights));
         if (material != nullptr && material->reflection != reflection_)
             add("reflection", candela::toml_text(material->reflection));
         if (material == nullptr && reflection_ != "phong") add("reflection", "\"phong\"");
@@ -248,13 +249,17 @@ class Writer {
     }
 
     /// An inline table with what differs from the defaults.
-    std::string text_of(const ParameterMap& map) const {
+    std::string text_of(const ParameterMap& map, bool has_heights = false) const {
         std::string text = fmt::format("{{ texture = {}", candela::toml_text(setting_.images[map.image]));
         const auto add_entry = [&](const char* key, const std::string& value) {
             text += fmt::format(", {} = {}", key, value);
         };
         if (!map.channel.empty()) add_entry("channel", candela::toml_text(map.channel));
-        if (map.scale != std::vector<double>{1}) add_entry("scale", numbers_text(map.scale));
+        if (has_heights) {
+            add_entry("height", fmt::format("{:.4g}", map.scale[0]));
+        } else if (map.scale != std::vector<double>{1}) {
+            add_entry("scale", numbers_text(map.scale));
+        }
         if (map.offset != std::vector<double>{0}) add_entry("offset", numbers_text(map.offset));
         if (map.clamps) add_entry("wrap", "\"clamp\"");
         if (map.placing != Placing{})
