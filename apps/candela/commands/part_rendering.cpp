@@ -57,6 +57,8 @@ int render_part(const CommandLine& line) {
     const auto output = line.get<std::string>("output");
     if (output == "-")
         throw Error(ErrorCategory::bad_request, "parts are files next to the picture; name it with -o");
+    for (const char* const option : {"view", "display", "color-config"})
+        require_no(line, option, "a view applies to the whole picture");
     require_no(line, "terms", "parts hold only the picture");
     require_no(line, "no-clobber", "a part that is up to date is kept anyway");
     const int threads = threads_from(line);

@@ -15,6 +15,7 @@
 #include "cli/output_format.h"
 #include "cli/outputs.h"
 #include "cli/scene_compilation.h"
+#include "color_view/color_view.h"
 #include "commands/luminance_option.h"
 #include "commands/part_rendering.h"
 #include "commands/row_rendering.h"
@@ -45,6 +46,22 @@ std::vector<NamedTerm> terms_asked_for(const CommandLine& line, const candela::S
         throw Error(ErrorCategory::bad_request,
                     "--terms writes layers, or files next to the picture; name a file with -o");
     return terms_from(words_of(line.get<std::string>("terms")), scene, "--terms");
+}
+
+/// The view that the options name, already searched for.
+std::unique_ptr<ColorView> view_from(const CommandLine& line, const candela::OutputFormat& format) {
+    if (!line.has("view") && !line.has("display") && !line.has("color-config")) return nullptr;
+    if (format.pixels == candela::PixelType::real)
+        throw Error(
+            ErrorCategory::bad_request,
+            fmt::format("--view: files of type .{} have the intensities themselves; programs that open "
+                        "them apply the view",
+                        format.extension));
+    const auto text = [&](const char* option) {
+        return line.has(option) ? line.get<std::string>(option) : std::string();
+    };
+    return std::make_unique<ColorView>(
+        ViewName{.config = text("color-config"), .display = text("display"), .view = text("view")});
 }
 
 /// The files for a picture and its terms.
@@ -90,6 +107,8 @@ int render_image(const CommandLine& line) {
     candela::Registry registry = registry_from(line);
     const candela::OutputFormat format = output_format_from(line, output, registry);
     const LuminanceDisplay luminance = luminance_display_from(line);
+    // Its libraries are loaded while the scene is read.
+    const std::unique_ptr<ColorView> view = view_from(line, format);
 
     candela::Diagnostics diagnostics;
     const auto draft = candela::draft_scene(scene_request_from(line, registry), registry, diagnostics);
@@ -112,11 +131,13 @@ int render_image(const CommandLine& line) {
     if (!compiled) return static_cast<int>(exit_code_of(diagnostics));
 
     const candela::ImageSettings& image = compiled->image;
-    if (is_streamed(image, format, registry) && terms.empty())
+    if (view) view->require();
+    if (is_streamed(image, format, registry) && terms.empty() && !view)
         return render_by_rows(line, *compiled, format, existing, registry, total);
     std::optional<candela::Film> made;
     try {
-        made.emplace(image.width, image.height, format.pixels, candela::display_of(*compiled));
+        made.emplace(image.width, image.height, view ? candela::PixelType::real : format.pixels,
+                     candela::display_of(*compiled));
     } catch (const Error& problem) {
         candela::Diagnostics too_large;
         too_large.failure(draft->image_place, problem.what());
@@ -136,6 +157,7 @@ int render_image(const CommandLine& line) {
     if (!darkness.empty()) warn("nothing in the picture is lit: " + darkness);
     const std::string clipping = candela::clipping_diagnosis(*compiled, film, statistics);
     if (!clipping.empty()) warn(clipping);
+    if (view) made = view->applied(film, candela::exposure_factor(compiled->observer.exposure));
     const bool is_verbose = line.has("verbose");
     const Stopwatch writing;
     TermRenderer term_renderer(*compiled, threads);
@@ -190,6 +212,13 @@ int run_render(const std::vector<std::string>& arguments) {
         "all "
         "(docs/user/explaining.md); as layers of an .exr, otherwise as files next to the picture");
     add_luminance_option(line);
+    line.options()(
+        "view", po::value<std::string>()->value_name("NAME"),
+        "show the picture through this view of an OpenColorIO configuration instead of the scene's "
+        "tone curve")("display", po::value<std::string>()->value_name("NAME"),
+                      "the display whose view it is; default: the configuration's")(
+        "color-config", po::value<std::string>()->value_name("FILE"),
+        "the OpenColorIO configuration; default: the environment variable OCIO");
     line.options()(
         "part", po::value<std::string>()->value_name("K/N"),
         "render only the K-th of N bands of rows, into the folder FILE.parts; candela assemble combines "
