@@ -11,6 +11,7 @@
 #include "support/expect.h"
 #include "support/folder.h"
 #include "support/ppm.h"
+#include "support/text.h"
 
 namespace {
 
@@ -62,6 +63,16 @@ TEST_CASE("luminances have viridis' colours on a logarithmic scale, whatever the
             CHECK(picture.at(2, 2) == std::array{0, 0, 0});
         }
     }
+}
+
+TEST_CASE("explain gives the luminance of a pixel") {
+    const Folder d({{"scene.toml", glowing(30, ", exposure = 3")}});
+    const auto at = [&](const char* pixel) {
+        return succeeded(d.run("explain scene.toml --pixel", {pixel})).out;
+    };
+    CHECK(holds(at("20,60"), "\nluminance = 30 cd/m²\nred: I = 30, exposed"));
+    CHECK(holds(at("2,2"), "\nluminance = 0 cd/m²\n"));
+    CHECK(holds(succeeded(d.run("explain scene.toml --pixel 20,60 --json")).out, "\"luminance\": 30.0"));
 }
 
 TEST_CASE("the legend's bar is next to the picture, brightest at the top, with black marks") {

@@ -152,6 +152,18 @@ bool Explanation::may_be_blocked(const LightTrace& light) const {
     return light.sample == LightTrace::k_ambient ? source.ambient_occlusion.rays > 0 : source.casts_shadows;
 }
 
+double Explanation::luminance() const {
+    // ITU-R BT.709
+    const auto of = [](candela::Vec3 rgb) {
+        return 0.2126 * static_cast<double>(rgb.x) + 0.7152 * static_cast<double>(rgb.y) +
+               0.0722 * static_cast<double>(rgb.z);
+    };
+    const bool is_background_light = !compiled.environment.is_uniform();
+    const double behind =
+        is_background_light ? 0 : static_cast<double>(pixel.background_weight) * of(pixel.background);
+    return std::max(0.0, of(pixel.intensity) - behind);
+}
+
 std::optional<double> Explanation::kernel_difference() const {
     std::optional<double> largest;
     for (const InspectedFragment& fragment : pixel.fragments) {

@@ -44,6 +44,9 @@ class Explanation {
     /// The largest difference between the intensities reflected by the kernel's text, compiled here, and by
     /// the plugin, as a fraction of the point's intensity; nothing if no kernel was run.
     std::optional<double> kernel_difference() const;
+    /// The luminance of the pixel in cd/m², like the term of that name: without a background that is a colour
+    /// of the picture.
+    double luminance() const;
 
   private:
     std::size_t add(KernelCall call);

@@ -156,6 +156,7 @@ std::string explanation_json(const Explanation& e, JsonLayout layout) {
                    {"background_weight", e.pixel.background_weight},
                    {"background", json_of(e.pixel.background)},
                    {"I", json_of(e.pixel.intensity)},
+                   {"luminance", e.luminance()},
                    {"color_management", is_srgb ? "srgb" : "none"},
                    {"encoded", std::move(encoded)},
                    {"bytes", e.pixel.bytes}};

@@ -62,6 +62,7 @@ class Writer {
                       : "no object is visible");
         if (e_.pixel.fragments.size() + (e_.pixel.background_weight > 0 ? 1 : 0) > 1)
             value(0, "I", e_.pixel.intensity, "the sum, weighted by share of the pixel");
+        line(0, fmt::format("luminance = {:.6g} cd/m²", e_.luminance()));
         write_encoding();
         if (!e_.why_no_steps().empty()) line(0, "note: " + e_.why_no_steps());
         if (const auto difference = e_.kernel_difference())
