@@ -13,7 +13,6 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -36,7 +35,7 @@ std::string unknown(const char* what, const std::vector<std::string>& known) {
 }
 
 bool has(const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) != names.end();
+    return std::ranges::find(names, name) != names.end();
 }
 
 /// The names of linear colours with sRGB's primaries in the configurations of ACES, Blender and others.
@@ -52,8 +51,8 @@ constexpr const char* k_linear_spaces[] = {"lin_rec709",
                                            "linear"};
 
 std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(text, text.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
 }
 
@@ -137,6 +136,6 @@ int main(int argc, char** argv) {
     View view(argv[1], argv[2], argv[3]);
     bool is_first = true;
     for (std::string line; std::getline(std::cin, line); is_first = false)
-        std::cout << answer(view, line, is_first) << std::endl;
+        std::cout << answer(view, line, is_first) << '\n' << std::flush;
     return 0;
 }

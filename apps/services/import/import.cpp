@@ -160,7 +160,7 @@ double expose(Model& model, const Bounds& bounds, Setting& setting) {
     constexpr double k_limit = 24;
     const double value = std::round(100 * -std::log2(1.2 * factor)) / 100;
     setting.exposure = std::clamp(value, -k_limit, k_limit);
-    const double exposed = double{candela::exposure_factor(static_cast<float>(*setting.exposure))};
+    const auto exposed = double{candela::exposure_factor(static_cast<float>(*setting.exposure))};
     model.note(
         fmt::format("'exposure' in [observer] suits its lights; the file has none, and "
                     "glTF-Sample-Viewer's default is {:.3f}, which shows 1 cd/m² as white",
