@@ -85,7 +85,8 @@ struct SolidLoop {
 void let_pass(const RTCFilterFunctionNArguments* hits) {
     const auto& surface = *static_cast<const Surface*>(hits->geometryUserPtr);
     const auto& packet = *reinterpret_cast<const PacketContext*>(hits->context);
-    if (hits->N == k_size && surface.is_solid && !surface.is_transparent && !packet.is_one_ray) {
+    const bool is_opaque = !surface.is_transparent && !surface.is_see_through;
+    if (hits->N == k_size && surface.is_solid && is_opaque && !packet.is_one_ray) {
         alignas(64) std::array<int, k_size> near_edge;
         SolidLoop::Found any;
         SolidLoop::Found* const to = &any;
@@ -108,13 +109,22 @@ void let_pass(const RTCFilterFunctionNArguments* hits) {
         if (hits->valid[i] == 0) continue;
         const float cosine = leaving(hits, i);
         const std::uint32_t id = RTCRayN_id(hits->ray, hits->N, i), ray = id % k_size;
-        const bool is_blocked = !surface.is_transparent && is_blocking(surface, is_own, id, cosine);
+        const bool is_met = !surface.is_transparent && is_blocking(surface, is_own, id, cosine);
+        const bool is_blocked = is_met && is_opaque;
         if (!is_blocked) hits->valid[i] = 0;
-        if (!is_blocked && !(surface.is_transparent && surface.has_inside)) continue;
+        if (!is_met && !(surface.is_transparent && surface.has_inside)) continue;
         const bool is_at_edge = is_near_edge(hits, i);
         if (is_at_edge && !packet.is_one_ray) {
             packet.near_edges |= 1u << ray;
             hits->valid[i] = 0;
+        } else if (surface.is_see_through) {
+            if (packet.partial_hits == nullptr) continue;
+            const float u = RTCHitN_u(hits->hit, hits->N, i), v = RTCHitN_v(hits->hit, hits->N, i);
+            packet.partial_hits->push_back(
+                {{ray, surface.object, RTCHitN_primID(hits->hit, hits->N, i), {1 - u - v, u, v}},
+                 RTCRayN_tfar(hits->ray, hits->N, i),
+                 cosine < 0,
+                 is_at_edge});
         } else if (!is_blocked) {
             packet.hits->push_back({ray, surface.object, RTCRayN_tfar(hits->ray, hits->N, i), cosine < 0,
                                     is_at_edge, RTCHitN_primID(hits->hit, hits->N, i)});
@@ -163,6 +173,27 @@ void add_crossings(std::vector<TransparentHit>& hits, std::uint32_t first, const
         const float end = length[hit.ray];
         if (open > 0 && std::isfinite(end)) inside += static_cast<float>(open) * end;
         crossings.push_back({first + hit.ray, hit.object, std::max(inside, 0.0f)});
+    }
+    hits.clear();
+}
+
+void add_passages(std::vector<PartialHit>& hits, std::uint32_t first, std::vector<Passage>& passages) {
+    const auto key = [](const PartialHit& hit) {
+        return std::tuple(hit.passage.ray, hit.passage.object, hit.along, hit.passage.triangle);
+    };
+    std::ranges::sort(hits, {}, key);
+    hits.erase(std::ranges::unique(hits, {}, key).begin(), hits.end());
+    const PartialHit* last = nullptr;
+    for (const PartialHit& hit : hits) {
+        // The triangles that share an edge are one surface there.
+        const bool is_same = last != nullptr && last->is_near_edge && hit.is_near_edge &&
+                             last->passage.ray == hit.passage.ray &&
+                             last->passage.object == hit.passage.object && last->enters == hit.enters &&
+                             hit.along - last->along <= k_same_edge * last->along;
+        if (is_same) continue;
+        last = &hit;
+        passages.push_back(hit.passage);
+        passages.back().ray += first;
     }
     hits.clear();
 }

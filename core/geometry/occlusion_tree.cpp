@@ -216,6 +216,7 @@ struct OcclusionTree::Tree {
     Box box{};                               // around them
     float largest = 0;                       // extent of a triangle that blocks light on both sides
     bool has_transparent = false;
+    bool has_see_through = false;
     bool is_dense = false;
 
     Tree() = default;
@@ -230,8 +231,9 @@ struct OcclusionTree::Tree {
     bool meets_any(const RTCRay16& rays, const Inverse& inverse, const std::array<int, k_size>& valid,
                    std::uint32_t object) const;
 
-    /// Whether a ray is blocked if it is traced on its own. Adds its hits of transparent objects.
-    bool is_blocked(const ShadowRays& rays, std::size_t ray, std::vector<TransparentHit>& hits) const;
+    /// Whether a ray is blocked if it is traced on its own. Adds its hits of surfaces that let light pass.
+    bool is_blocked(const ShadowRays& rays, std::size_t ray, std::vector<TransparentHit>& hits,
+                    std::vector<PartialHit>* partial_hits) const;
 };
 
 void OcclusionTree::Tree::add(const Mesh& mesh, Surface& surface) const {
@@ -276,14 +278,17 @@ OcclusionTree::OcclusionTree(std::span<const Occluder> occluders) : tree_(std::m
                          .object = static_cast<std::uint32_t>(i),
                          .is_solid = occluder.is_solid,
                          .is_transparent = occluder.is_transparent,
+                         .is_see_through = occluder.is_see_through,
                          .has_inside = occluder.mesh->open_edges == 0};
         t.has_transparent = t.has_transparent || occluder.is_transparent;
+        t.has_see_through = t.has_see_through || occluder.is_see_through;
         if (!occluder.is_solid) t.largest = std::max(t.largest, largest_triangle(*occluder.mesh));
         t.add(*occluder.mesh, t.surfaces[i]);
         const Box box = enlarged(occluder.mesh->bounds);
         t.box = t.bounds.empty() ? box : united(t.box, box);
         t.bounds.push_back({box, t.surfaces[i].object, occluder.is_solid && is_convex(*occluder.mesh)});
-        t.clusters.emplace_back(*occluder.mesh, occluder.is_solid && !occluder.is_transparent);
+        t.clusters.emplace_back(*occluder.mesh,
+                                occluder.is_solid && !occluder.is_transparent && !occluder.is_see_through);
     }
     // Robust, so that no ray slips between triangles, and results do not depend on the shape of the tree.
     constexpr unsigned k_flags = unsigned{RTC_SCENE_FLAG_ROBUST} | unsigned{Embree::k_filters_by_call};
@@ -315,6 +320,7 @@ float OcclusionTree::least_margin() const noexcept { return k_relative_margin * 
 bool OcclusionTree::is_solid(std::uint32_t object) const noexcept { return tree_->surfaces[object].is_solid; }
 bool OcclusionTree::is_dense() const noexcept { return tree_->is_dense; }
 bool OcclusionTree::has_transparent() const noexcept { return tree_->has_transparent; }
+bool OcclusionTree::has_see_through() const noexcept { return tree_->has_see_through; }
 
 namespace {
 
@@ -338,11 +344,13 @@ alignas(64) constexpr std::array<int, k_size> k_one_ray{-1};
 }  // namespace
 
 bool OcclusionTree::Tree::is_blocked(const ShadowRays& rays, std::size_t ray,
-                                     std::vector<TransparentHit>& hits) const {
+                                     std::vector<TransparentHit>& hits,
+                                     std::vector<PartialHit>* partial_hits) const {
     PacketContext context;
     context.object = rays.object;
     context.is_one_ray = true;
     context.hits = &hits;
+    context.partial_hits = partial_hits;
     RTCRay16 traced{};
     set_ray(rays, ray, traced);
     embree.occluded(scene, k_one_ray, let_pass, context.context, traced);
@@ -360,13 +368,15 @@ bool OcclusionTree::Tree::meets_any(const RTCRay16& rays, const Inverse& inverse
     return any != 0;
 }
 
-void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
-                                 std::vector<Crossing>& crossings) const {
+void OcclusionTree::find_visible(const ShadowRays& rays, float* visible, std::vector<Crossing>& crossings,
+                                 std::vector<Passage>* passages) const {
     const Tree& t = *tree_;
     std::vector<TransparentHit> hits;
+    std::vector<PartialHit> partial_hits;
     PacketContext packet;
     packet.object = rays.object;
     packet.hits = &hits;
+    packet.partial_hits = passages != nullptr ? &partial_hits : nullptr;
     std::optional<CachedBlocker> cached;
     for (std::size_t first = 0; first < rays.count; first += k_size) {
         const std::uint32_t* const flags = rays.flags + first;
@@ -389,12 +399,18 @@ void OcclusionTree::find_visible(const ShadowRays& rays, float* visible,
         if (!is_traced) continue;
         if (packet.blocker != nullptr) cached.emplace(*packet.blocker->mesh, packet.blocker_triangle);
         if (packet.near_edges != 0) {
-            std::erase_if(hits,
-                          [&](const TransparentHit& hit) { return (packet.near_edges >> hit.ray & 1) != 0; });
+            const auto is_repeated = [&](std::uint32_t ray) { return (packet.near_edges >> ray & 1) != 0; };
+            std::erase_if(hits, [&](const TransparentHit& hit) { return is_repeated(hit.ray); });
+            std::erase_if(partial_hits, [&](const PartialHit& hit) { return is_repeated(hit.passage.ray); });
             for (std::size_t i = 0; i < k_size; ++i) {
-                if ((packet.near_edges >> i & 1) != 0 && to[i] != 0 && t.is_blocked(rays, first + i, hits))
+                if (is_repeated(static_cast<std::uint32_t>(i)) && to[i] != 0 &&
+                    t.is_blocked(rays, first + i, hits, packet.partial_hits))
                     to[i] = 0;
             }
+        }
+        if (!partial_hits.empty()) {
+            std::erase_if(partial_hits, [&](const PartialHit& hit) { return to[hit.passage.ray] == 0; });
+            add_passages(partial_hits, static_cast<std::uint32_t>(first), *passages);
         }
         if (hits.empty()) continue;
         std::erase_if(hits, [&](const TransparentHit& hit) { return to[hit.ray] == 0; });

@@ -23,6 +23,7 @@ struct Occluder {
     /// Closed, and nothing is inside: light is blocked where it enters. Otherwise on either side.
     bool is_solid = false;
     bool is_transparent = false;  // light passes, and the lengths of its paths inside are found
+    bool is_see_through = false;  // light passes in part: the places where it does are found
 };
 
 /// Rays from points of one object's surface towards a light. Arrays have `count` elements rounded up to whole
@@ -48,6 +49,14 @@ struct Crossing {
     std::uint32_t ray = 0;
     std::uint32_t object = 0;
     float length = 0;  // inside, in multiples of the direction
+};
+
+/// Where a ray meets a surface that blocks only a part of the light.
+struct Passage {
+    std::uint32_t ray = 0;
+    std::uint32_t object = 0;
+    std::uint32_t triangle = 0;
+    Vec3 barycentric{};
 };
 
 /// The triangle that blocks a ray.
@@ -82,6 +91,7 @@ class CANDELA_EXPORT OcclusionTree {
     float least_margin() const noexcept;
     static constexpr float k_relative_margin = 0x1p-20f;
     bool has_transparent() const noexcept;
+    bool has_see_through() const noexcept;
     /// Whether light is blocked only where it enters that object.
     bool is_solid(std::uint32_t object) const noexcept;
     /// Whether there are so many triangles that sixteen rays take longer than may_block().
@@ -93,9 +103,11 @@ class CANDELA_EXPORT OcclusionTree {
     bool may_block(const Box& points, Vec3 towards, std::uint32_t object) const noexcept;
 
     /// Writes 1 for each ray that reaches its end, 0 for each that is blocked, and adds the ways through
-    /// transparent objects to `crossings`. A ray's result does not depend on the others; rays that are close
-    /// to each other are fast.
-    void find_visible(const ShadowRays& rays, float* visible, std::vector<Crossing>& crossings) const;
+    /// transparent objects to `crossings`, and those through see-through surfaces to `passages`, sorted by
+    /// ray and object; if that is null, these block nothing. A ray's result does not depend on the others;
+    /// rays that are close to each other are fast.
+    void find_visible(const ShadowRays& rays, float* visible, std::vector<Crossing>& crossings,
+                      std::vector<Passage>* passages = nullptr) const;
 
     /// The nearest triangle that blocks the ray of that index.
     std::optional<Blocker> find_blocker(const ShadowRays& rays, std::size_t ray) const;

@@ -63,18 +63,26 @@ FragmentList& TileFragments::list_of(const ProjectedScene& scene, std::uint32_t 
     return list;
 }
 
-void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& visibility) {
+void TileFragments::begin() {
     used_ = 0;
     last_ = 0;
     background_.clear();
     pixels_seen_ = 0;
+}
+
+void TileFragments::sort() {
+    std::sort(lists_.begin(), lists_.begin() + static_cast<std::ptrdiff_t>(used_),
+              [](const FragmentList& a, const FragmentList& b) { return a.object < b.object; });
+}
+
+void TileFragments::collect(const ProjectedScene& scene, const TileVisibility& visibility) {
+    begin();
     if (visibility.samples == 1) {
         collect_pixels(scene, visibility);
     } else {
         collect_samples(scene, visibility);
     }
-    std::sort(lists_.begin(), lists_.begin() + static_cast<std::ptrdiff_t>(used_),
-              [](const FragmentList& a, const FragmentList& b) { return a.object < b.object; });
+    sort();
 }
 
 namespace {
@@ -167,27 +175,30 @@ bool continues(const std::vector<Run>& runs, std::uint32_t pixel, int column) {
 
 }  // namespace
 
+void TileFragments::add_background(std::uint32_t pixel, int column, float weight) {
+    if (continues(background_, pixel, column) && background_.back().weight == weight) {
+        ++background_.back().count;
+    } else {
+        background_.push_back({pixel, 1, weight});
+    }
+}
+
+void TileFragments::add_fragment(const ProjectedScene& scene, std::uint32_t triangle,
+                                 const FragmentRun& fragment, int column) {
+    FragmentList& list = list_of(scene, triangle);
+    const std::uint32_t first = scene.first_triangle[list.object];
+    const bool continues_run =
+        fragment.weight == 1 && continues(list.runs, fragment.pixel, column) && list.runs.back().weight == 1;
+    if (continues_run) return list.prolong(triangle, first);
+    list.add(fragment, &triangle, first);
+}
+
 /// Several samples per pixel: the contribution of each triangle that the pixel's samples see.
 void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisibility& visibility) {
     const int samples = visibility.samples;
     const float share = 1 / static_cast<float>(samples);
     const std::span<const SamplePosition> pattern = sample_pattern(samples);
 
-    const auto add_background = [&](std::uint32_t pixel, int column, float weight) {
-        if (continues(background_, pixel, column) && background_.back().weight == weight) {
-            ++background_.back().count;
-        } else {
-            background_.push_back({pixel, 1, weight});
-        }
-    };
-    const auto add_fragment = [&](std::uint32_t triangle, const FragmentRun& fragment, int column) {
-        FragmentList& list = list_of(scene, triangle);
-        const std::uint32_t first = scene.first_triangle[list.object];
-        const bool continues_run = fragment.weight == 1 && continues(list.runs, fragment.pixel, column) &&
-                                   list.runs.back().weight == 1;
-        if (continues_run) return list.prolong(triangle, first);
-        list.add(fragment, &triangle, first);
-    };
     for (int row = 0; row < visibility.height; ++row) {
         const auto top = static_cast<float>(visibility.y0 + row);
         for (int column = 0; column < visibility.width; ++column) {
@@ -206,7 +217,7 @@ void TileFragments::collect_samples(const ProjectedScene& scene, const TileVisib
                 const float sixteenths = 16 * static_cast<float>(s.count);
                 const float x = seen.is_one() ? 0.5f : static_cast<float>(s.x) / sixteenths;
                 const float y = seen.is_one() ? 0.5f : static_cast<float>(s.y) / sixteenths;
-                add_fragment(s.triangle,
+                add_fragment(scene, s.triangle,
                              {.pixel = pixel, .count = 1, .x = left + x, .y = top + y, .weight = weight},
                              column);
             }

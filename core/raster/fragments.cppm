@@ -61,6 +61,14 @@ class CANDELA_EXPORT TileFragments {
     /// Sorts the samples of `visibility` into fragments.
     void collect(const ProjectedScene& scene, const TileVisibility& visibility);
 
+    /// Sorts them if surfaces let what is behind them through: `left` is the fraction of each sample, in the
+    /// order of TileVisibility::triangle, that is not covered by anything nearer, and `opacity` the fraction
+    /// of that which its surface covers. A sample of which nothing is left is not part of any fragment. The
+    /// background's weights are those of samples without a triangle; runs of weight 0, of pixels that see
+    /// several triangles or parts of them, only if `is_nearest`.
+    void collect_layer(const ProjectedScene& scene, const TileVisibility& visibility,
+                       std::span<const float> left, std::span<const float> opacity, bool is_nearest);
+
     std::span<const FragmentList> lists() const { return {lists_.data(), used_}; }
 
     /// The pixels whose intensity does not come from a single fragment.
@@ -73,6 +81,11 @@ class CANDELA_EXPORT TileFragments {
     FragmentList& list_of(const ProjectedScene& scene, std::uint32_t triangle);
     void collect_pixels(const ProjectedScene& scene, const TileVisibility& visibility);
     void collect_samples(const ProjectedScene& scene, const TileVisibility& visibility);
+    void begin();
+    void sort();
+    void add_fragment(const ProjectedScene& scene, std::uint32_t triangle, const FragmentRun& fragment,
+                      int column);
+    void add_background(std::uint32_t pixel, int column, float weight);
 
     std::vector<FragmentList> lists_;
     std::vector<BackgroundRun> background_;

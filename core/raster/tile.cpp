@@ -67,6 +67,44 @@ struct TriangleLoop {
     }
 };
 
+/// The surface of each sample of a plane behind which others are looked for.
+struct LimitPlane {
+    const float* depth;
+    const std::uint32_t* triangle;
+};
+
+/// Like TriangleLoop, which finds the same depths, behind the limits.
+struct TriangleBehindLoop {
+    CANDELA_BATCH_LOOP static void run(TileTriangle t, SamplePlane plane, LimitPlane limits) {
+        for (int y = t.y0; y < t.y1; ++y) {
+            const std::int32_t row0 = t.e[0] + y * t.ey[0];
+            const std::int32_t row1 = t.e[1] + y * t.ey[1];
+            const std::int32_t row2 = t.e[2] + y * t.ey[2];
+            const float row_z = t.z + static_cast<float>(y - t.anchor_y) * t.zy;
+            const std::ptrdiff_t row = std::ptrdiff_t{y} * plane.stride;
+            float* const depth = plane.depth + row;
+            std::uint32_t* const triangle = plane.triangle + row;
+            const float* const limit_depth = limits.depth + row;
+            const std::uint32_t* const limit_triangle = limits.triangle + row;
+            for (int block = t.x0; block < t.x1; block += k_block) {
+                CANDELA_VECTORIZE_SIXTEEN
+                for (int x = block; x < block + k_block; ++x) {
+                    const std::int32_t outside =
+                        (row0 + x * t.ex[0]) | (row1 + x * t.ex[1]) | (row2 + x * t.ex[2]);
+                    const float z = row_z + static_cast<float>(x - t.anchor_x) * t.zx;
+                    const float old_z = depth[x];
+                    const std::uint32_t old_id = triangle[x];
+                    const bool is_behind =
+                        (z < limit_depth[x]) | ((z == limit_depth[x]) & (t.id > limit_triangle[x]));
+                    const bool wins = (outside >= 0) & (z > old_z) & is_behind & (t.id != limit_triangle[x]);
+                    depth[x] = wins ? z : old_z;
+                    triangle[x] = wins ? t.id : old_id;
+                }
+            }
+        }
+    }
+};
+
 /// A tile's first sample in fixed point, and the distance between its pixels.
 struct SampleGrid {
     std::int64_t x, y;
@@ -150,8 +188,10 @@ void clear(TileVisibility& visibility) {
 /// Rasterises one tile's triangles.
 class TileRaster {
   public:
-    TileRaster(const ProjectedScene& scene, TileVisibility& visibility)
-        : scene_(scene), visibility_(visibility), pattern_(sample_pattern(scene.samples)) {}
+    /// `limits`: what the samples look behind, or null.
+    TileRaster(const ProjectedScene& scene, TileVisibility& visibility,
+               const TileVisibility* limits = nullptr)
+        : scene_(scene), visibility_(visibility), limits_(limits), pattern_(sample_pattern(scene.samples)) {}
 
     void see(const TriangleBin& bin, std::span<const BinnedTriangle> triangles) {
         if (scene_.samples > 1) {
@@ -207,9 +247,16 @@ class TileRaster {
             const float depth = first + static_cast<float>(column) * small_.to_right[i] +
                                 static_cast<float>(row) * small_.down[i];
             if (!(depth > visibility_.depth[pixel])) continue;
+            if (limits_ != nullptr && !is_behind(pixel, depth, id)) continue;
             visibility_.depth[pixel] = depth;
             visibility_.triangle[pixel] = id;
         }
+    }
+
+    bool is_behind(std::size_t pixel, float depth, std::uint32_t id) const {
+        const float limit = limits_->depth[pixel];
+        const std::uint32_t triangle = limits_->triangle[pixel];
+        return id != triangle && (depth < limit || (depth == limit && id > triangle));
     }
 
     void rasterize_large(const RasterTriangle& triangle) {
@@ -225,13 +272,20 @@ class TileRaster {
             TileTriangle set;
             if (!set_up(triangle, grid, set)) continue;
             const std::size_t plane = s * visibility_.plane();
-            multiversion<TriangleLoop>(set, SamplePlane{visibility_.stride, visibility_.depth.data() + plane,
-                                                        visibility_.triangle.data() + plane});
+            const SamplePlane to{visibility_.stride, visibility_.depth.data() + plane,
+                                 visibility_.triangle.data() + plane};
+            if (limits_ == nullptr) {
+                multiversion<TriangleLoop>(set, to);
+            } else {
+                multiversion<TriangleBehindLoop>(
+                    set, to, LimitPlane{limits_->depth.data() + plane, limits_->triangle.data() + plane});
+            }
         }
     }
 
     const ProjectedScene& scene_;
     TileVisibility& visibility_;
+    const TileVisibility* limits_;
     std::span<const SamplePosition> pattern_;
     SmallTriangles small_;
 };
@@ -258,6 +312,19 @@ bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility
         raster.see(bin, triangles);
     }
     return is_cleared;
+}
+
+void rasterize_behind(const ProjectedScene& scene, const TileVisibility& before, TileVisibility& visibility) {
+    visibility.x0 = before.x0;
+    visibility.y0 = before.y0;
+    visibility.width = before.width;
+    visibility.height = before.height;
+    visibility.stride = before.stride;
+    visibility.samples = before.samples;
+    clear(visibility);
+    TileRaster raster(scene, visibility, &before);
+    for (const TriangleBin& bin : scene.bins)
+        raster.see(bin, bin.triangles_in(before.x0 / scene.tile_size, before.y0 / scene.tile_size));
 }
 
 }  // namespace candela

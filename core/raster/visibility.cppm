@@ -45,4 +45,10 @@ struct TileVisibility {
 /// false if no triangle comes near the tile; `visibility` then has only its position. Any thread.
 CANDELA_EXPORT bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility);
 
+/// Finds what the tile of `before` sees behind that: at each sample, the nearest triangle behind the depth
+/// and the triangle there (Everitt 2001, "Interactive order-independent transparency"). Equally near ones
+/// come in the scene's order. Samples with a depth of minus infinity see nothing.
+CANDELA_EXPORT void rasterize_behind(const ProjectedScene& scene, const TileVisibility& before,
+                                     TileVisibility& visibility);
+
 }  // namespace candela

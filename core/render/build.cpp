@@ -156,6 +156,8 @@ class SceneBuilder {
             material.emission_strength *
             (material.has_texture("emission") ? Rgb{1, 1, 1} : decoded(material.emission, encoding()));
         surface.occlusion = material.occlusion;
+        surface.opacity = material.opacity;
+        surface.opacity_cutoff = material.opacity_cutoff;
     }
 
     void make_textures() {
@@ -259,7 +261,7 @@ class SceneBuilder {
                 });
                 shapes[i].reset();  // frees a file's triangles before the next file is read
                 if (placed_[i]) warnings_[i] = placed_[i]->warnings;
-                if (has_surface(i) && built_.objects[i].surface.has_textures() && placed_[i] &&
+                if (has_surface(i) && built_.objects[i].surface.needs().footprint && placed_[i] &&
                     placed_[i]->mesh.u.empty())
                     require_texture_coordinates(object, diagnostics_);
             }
@@ -277,7 +279,8 @@ class SceneBuilder {
         const Object& object = scene_.objects[i];
         const Object* const old = object_before(i);
         if (old == nullptr || old->shape != object.shape || old->transform != object.transform ||
-            old->color != object.color || old->encloses != object.encloses || old->shading != object.shading)
+            old->color != object.color || old->encloses != object.encloses ||
+            old->shading != object.shading || old->common.is_see_through() != object.common.is_see_through())
             return false;
         RenderObject& solid = before_->built.objects[i];
         if (solid.mesh.u.empty() == needs.uv || solid.mesh.dpdu.empty() == needs.derivatives) return false;
@@ -355,7 +358,8 @@ class SceneBuilder {
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
             const Object &now = scene_.objects[i], &old = before_->scene.objects[i];
             if (now.casts_shadows != old.casts_shadows || now.transmits_light != old.transmits_light ||
-                now.reflection != old.reflection)
+                now.reflection != old.reflection ||
+                now.common.is_see_through() != old.common.is_see_through())
                 return false;
         }
         return true;
@@ -379,7 +383,8 @@ class SceneBuilder {
             const Object& object = scene_.objects[i];
             occluders.push_back({.mesh = object.casts_shadows ? &mesh : nullptr,
                                  .is_solid = mesh.closed && !mesh.one_sided && !object.encloses,
-                                 .is_transparent = is_transparent(i)});
+                                 .is_transparent = is_transparent(i),
+                                 .is_see_through = object.common.is_see_through() && !is_transparent(i)});
         }
         guarded("shadows", {}, [&] { built_.occlusion.emplace(occluders); });
     }
@@ -392,7 +397,7 @@ class SceneBuilder {
                     [&] { solid.mesh = with_normals(std::move(*placed_[i]), *solid.surface.shading); });
             multiply(solid.mesh.color, solid.surface.color);
         }
-        if (object.encloses) {
+        if (object.encloses || object.common.is_see_through()) {
             solid.mesh.closed = solid.mesh.one_sided;  // otherwise also seen from inside
         } else if (!solid.mesh.closed) {
             diagnostics_.warning(

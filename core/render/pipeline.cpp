@@ -13,6 +13,7 @@ module;
 module candela.render;
 
 import :tile;
+import :tile_layers;
 import candela.api;
 import candela.geometry;
 import candela.raster;
@@ -89,15 +90,44 @@ void shade_object(const RenderScene& scene, const FragmentList& fragments, TileS
 
 }  // namespace
 
+namespace {
+
+// Surfaces that show what is behind them: the layers of the tile, one after the other.
+void shade_layers(const RenderScene& scene, const VisibleTile& visible, TileWorker& worker) {
+    TileLayers& layers = worker.layers;
+    layers.begin(scene, worker.shader.projected(), visible, is_additive(worker.shader.term()));
+    while (layers.next()) {
+        const VisibleTile& layer = layers.layer();
+        if (layers.number() == 0) {
+            worker.shader.fill_background(layer);
+            worker.pixels_shaded += layer.fragments.pixels_seen();
+        } else {
+            worker.shader.add_background(layer);
+        }
+        for (const FragmentList& fragments : layer.fragments.lists())
+            shade_object(scene, fragments, worker.shader);
+    }
+}
+
+void store(const VisibleTile& visible, const TileShader& shader, Film& film) {
+    film.store(visible.x0, visible.y0, visible.width, visible.height, shader.pixels(), visible.stride);
+}
+
+}  // namespace
+
 // From fragments to the film: the background, then object by object.
 void shade_tile(const RenderScene& scene, const VisibleTile& visible, TileWorker& worker, Film& film) {
+    if (has_layers(scene, visible)) {
+        shade_layers(scene, visible, worker);
+        return store(visible, worker.shader, film);
+    }
     worker.shader.fill_background(visible);
     if (!visible.is_empty) {
         for (const FragmentList& fragments : visible.fragments.lists())
             shade_object(scene, fragments, worker.shader);
         worker.pixels_shaded += visible.fragments.pixels_seen();
     }
-    film.store(visible.x0, visible.y0, visible.width, visible.height, worker.shader.pixels(), visible.stride);
+    store(visible, worker.shader, film);
 }
 
 }  // namespace candela

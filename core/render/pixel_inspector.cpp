@@ -12,6 +12,7 @@ module candela.render;
 
 import :pixel_inspector;
 import :tile;
+import :tile_layers;
 import candela.api;
 import candela.geometry;
 import candela.raster;
@@ -89,6 +90,34 @@ class FragmentTracer {
     SurfacePoints points_;
 };
 
+float background_weight(const TileFragments& fragments, std::uint32_t pixel) {
+    for (const BackgroundRun& run : fragments.background()) {
+        if (pixel >= run.pixel && pixel - run.pixel < run.count) return run.weight;
+    }
+    return 0;
+}
+
+/// Calls `visit(object, run, triangle)` for each fragment of a pixel.
+template <class Visit>
+void each_fragment(const TileFragments& fragments, std::uint32_t pixel, Visit visit) {
+    for (const FragmentList& list : fragments.lists()) {
+        std::size_t first = 0;
+        for (const FragmentRun& run : list.runs) {
+            const std::size_t of_run = first;
+            first += run.count;
+            if (pixel < run.pixel || pixel - run.pixel >= run.count) continue;
+            const std::uint32_t offset = pixel - run.pixel;
+            visit(list.object,
+                  FragmentRun{.pixel = pixel,
+                              .count = 1,
+                              .x = run.x + static_cast<float>(offset),
+                              .y = run.y,
+                              .weight = run.weight},
+                  list.triangles[of_run + offset]);
+        }
+    }
+}
+
 }  // namespace
 
 InspectedPixel inspect_pixel(const RenderScene& scene, int x, int y) {
@@ -122,24 +151,27 @@ InspectedPixel inspect_pixel(const RenderScene& scene, int x, int y) {
     }
     const auto pixel = static_cast<std::uint32_t>((y - visible.y0) * visible.stride + (x - visible.x0));
     result.intensity = worker.shader.pixels()[pixel];
-    for (const BackgroundRun& run : visible.fragments.background()) {
-        if (pixel >= run.pixel && pixel - run.pixel < run.count) result.background_weight = run.weight;
-    }
     FragmentTracer tracer(scene, projected);
-    for (const FragmentList& list : visible.fragments.lists()) {
-        std::size_t first = 0;
-        for (FragmentRun run : list.runs) {
-            const std::size_t of_run = first;
-            first += run.count;
-            if (pixel < run.pixel || pixel - run.pixel >= run.count) continue;
-            const std::uint32_t offset = pixel - run.pixel;
-            run = {.pixel = pixel,
-                   .count = 1,
-                   .x = run.x + static_cast<float>(offset),
-                   .y = run.y,
-                   .weight = run.weight};
-            result.fragments.push_back(tracer.trace(list.object, run, list.triangles[of_run + offset]));
-        }
+    if (!has_layers(scene, visible)) {
+        result.background_weight = background_weight(visible.fragments, pixel);
+        each_fragment(visible.fragments, pixel,
+                      [&](std::uint32_t object, const FragmentRun& run, std::uint32_t triangle) {
+                          result.fragments.push_back(tracer.trace(object, run, triangle));
+                      });
+        return result;
+    }
+    TileLayers& layers = worker.layers;
+    layers.begin(scene, projected, visible, true);
+    while (layers.next()) {
+        const TileFragments& fragments = layers.layer().fragments;
+        result.background_weight += background_weight(fragments, pixel);
+        each_fragment(
+            fragments, pixel, [&](std::uint32_t object, const FragmentRun& run, std::uint32_t triangle) {
+                InspectedFragment& fragment =
+                    result.fragments.emplace_back(tracer.trace(object, run, triangle));
+                fragment.layer = layers.number();
+                fragment.opacity = layers.opacity_of(projected.first_triangle[object] + triangle, pixel);
+            });
     }
     return result;
 }

@@ -20,9 +20,12 @@ export namespace candela {
 struct InspectedFragment {
     std::size_t object = 0;      // index among the scene's
     std::uint32_t triangle = 0;  // of the object's mesh
-    float weight = 1;            // the fraction of the pixel's samples that see the triangle
-    Vec3 position{};             // of the fragment, world space
-    Vec3 barycentric{};          // of the fragment, on the triangle
+    float weight = 1;       // the part of the pixel's intensity: the fraction of its samples that see the
+                            // triangle, times what nearer surfaces leave of it, times its opacity
+    std::size_t layer = 0;  // how many surfaces are nearer at its samples
+    float opacity = 1;      // the fraction that it covers of what it is seen in
+    Vec3 position{};        // of the fragment, world space
+    Vec3 barycentric{};     // of the fragment, on the triangle
     ShadingRate rate = ShadingRate::fragment;
     std::vector<PointTrace> points{};  // where light is evaluated: the fragment, the face's centroid, or the
                                        // triangle's three vertices
@@ -31,10 +34,10 @@ struct InspectedFragment {
 
 struct InspectedPixel {
     std::vector<InspectedFragment> fragments{};  // in the order in which they are added up
-    float background_weight = 0;          // the fraction of the pixel's samples that see the background
-    Vec3 background{};                    // its intensity
-    Vec3 intensity{};                     // of the pixel
-    std::array<std::uint8_t, 3> bytes{};  // of the pixel in an 8-bit picture
+    float background_weight = 0;                 // the part of the pixel that shows the background
+    Vec3 background{};                           // its intensity
+    Vec3 intensity{};                            // of the pixel
+    std::array<std::uint8_t, 3> bytes{};         // of the pixel in an 8-bit picture
 };
 
 /// Inspects pixel (x, y), counted from the top left corner, of the picture that render() makes of the scene;

@@ -24,6 +24,8 @@ std::string SceneTextures::key_of(const std::string& file, ColorEncoding decodin
 void SceneTextures::keep(const SurfaceModels& surface) {
     for (const PlacedTexture& texture : surface.material_textures.textures)
         pictures_[texture.key] = texture.picture;
+    for (const PlacedTexture& texture : surface.opacity_textures.textures)
+        pictures_[texture.key] = texture.picture;
 }
 
 /// Null if it cannot be read, which was an Error before.
@@ -40,17 +42,26 @@ const std::shared_ptr<const MipMap>& SceneTextures::picture(const std::string& f
     return known->second;
 }
 
+const std::shared_ptr<const MipMap>& SceneTextures::opacity_map(const std::string& file) {
+    auto& known = pictures_["opacity " + file];
+    if (known == nullptr) known = read_opacity_map(file, registry_).mip_map;
+    return known;
+}
+
+PlacedTexture SceneTextures::placed(const ParameterTexture& texture, const Parameter& parameter) {
+    if (texture.channel == TextureChannel::alpha)
+        return {"opacity " + texture.file, opacity_map(texture.file), texture.wrap, texture.transform};
+    const ColorEncoding decoding = encoding_of(texture, parameter, of_scene_);
+    return {key_of(texture.file, decoding), picture(texture.file, decoding, texture.place), texture.wrap,
+            texture.transform};
+}
+
 void SceneTextures::make(const Object& object, SurfaceModels& surface) {
-    if (surface.material_textures.arrays() > 0) return;
+    if (surface.material_textures.arrays() > 0 || surface.opacity_textures.arrays() > 0) return;
     if (object.normal_map) make_normal_map(object, *object.normal_map, surface);
     const auto read = [&](const ParameterTexture& texture, const Parameter& parameter, const auto& add) {
         reported(diagnostics_, fmt::format("'{}' of object {}", texture.parameter, object.label.text()),
-                 texture.place, [&] {
-                     const ColorEncoding decoding = encoding_of(texture, parameter, of_scene_);
-                     add(PlacedTexture{key_of(texture.file, decoding),
-                                       picture(texture.file, decoding, texture.place), texture.wrap,
-                                       texture.transform});
-                 });
+                 texture.place, [&] { add(placed(texture, parameter)); });
     };
     const ParamSet& values = object.reflection.parameters;
     for (const ParameterTexture& texture : object.textures) {
@@ -60,8 +71,10 @@ void SceneTextures::make(const Object& object, SurfaceModels& surface) {
         });
     }
     for (const ParameterTexture& texture : object.common.textures) {
+        MaterialTextures& to =
+            texture.parameter == "opacity" ? surface.opacity_textures : surface.material_textures;
         read(texture, material_parameter(texture.parameter),
-             [&](const PlacedTexture& placed) { surface.material_textures.add_common(texture, placed); });
+             [&](const PlacedTexture& placed) { to.add_common(texture, placed); });
     }
     if (object.color_texture)
         read(*object.color_texture, color_parameter(), [&](const PlacedTexture& placed) {

@@ -99,9 +99,10 @@ void TileShader::begin(const RenderScene& scene, const ProjectedScene& projected
 LightingContext lighting_context(const RenderScene& scene, const Camera& camera,
                                  std::vector<Transmitter>& transmitters) {
     transmitters.clear();
-    if (scene.occlusion && scene.occlusion->has_transparent()) {
+    if (scene.occlusion && (scene.occlusion->has_transparent() || scene.occlusion->has_see_through())) {
         for (const RenderObject& object : scene.objects)
-            transmitters.push_back({object.surface.environment_reflection, object.surface.color});
+            transmitters.push_back(
+                {object.surface.environment_reflection, object.surface.color, &object.surface, &object.mesh});
     }
     return {.lights = scene.lights,
             .environment = &scene.environment,
@@ -182,6 +183,33 @@ void TileShader::fill_background(const VisibleTile& visible) {
     for (int row = 0; row < visible.height; ++row)
         fill(
             {static_cast<std::uint32_t>(row * visible.stride), static_cast<std::uint32_t>(visible.width), 1});
+}
+
+void TileShader::add_background(const VisibleTile& layer) {
+    if (!has_background_) return;
+    const Vec3Span pixels = pixels_.span();
+    const bool is_uniform = scene_->environment.is_uniform();
+    const auto stride = static_cast<std::uint32_t>(layer.stride);
+    for (const BackgroundRun& run : layer.fragments.background()) {
+        seen_.resize(run.count);
+        towards_.resize(run.count);
+        for (std::uint32_t i = 0; i < run.count; ++i) {
+            if (is_uniform) {
+                const Rgb everywhere = scene_->environment.seen({});
+                seen_.span().set(i, {everywhere.r, everywhere.g, everywhere.b});
+                continue;
+            }
+            const std::uint32_t pixel = run.pixel + i;
+            towards_.span().set(
+                i, projected_->camera.view_through(
+                       static_cast<float>(layer.x0) + static_cast<float>(pixel % stride) + 0.5f,
+                       static_cast<float>(layer.y0) + static_cast<float>(pixel / stride) + 0.5f));
+        }
+        if (!is_uniform) scene_->environment.look(run.count, std::as_const(towards_).span(), seen_.span());
+        for (std::uint32_t i = 0; i < run.count; ++i)
+            pixels.set(run.pixel + i, std::as_const(pixels_).span()[run.pixel + i] +
+                                          run.weight * std::as_const(seen_).span()[i]);
+    }
 }
 
 ProjectedMesh TileShader::mesh_of(const FragmentList& fragments) const {

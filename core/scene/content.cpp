@@ -51,6 +51,10 @@ bool CommonMaterial::emits() const {
     return emission_strength > 0 && (emission != Vec3{} || has_texture("emission"));
 }
 
+bool CommonMaterial::is_see_through() const {
+    return has_texture("opacity") || (opacity_cutoff > 0 ? opacity < opacity_cutoff : opacity < 1);
+}
+
 bool operator==(const Scene& a, const Scene& b) {
     return a.room == b.room && a.observer == b.observer && a.image == b.image &&
            a.constraints == b.constraints && a.shadows == b.shadows && a.lights == b.lights &&

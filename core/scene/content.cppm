@@ -173,6 +173,7 @@ enum class TextureChannel : int {
     red,
     green,
     blue,
+    alpha,  // the opacity of its pixels; 1 if it has none
 };
 
 /// The meaning of the numbers in a picture.
@@ -234,10 +235,15 @@ struct CommonMaterial {
     Vec3 emission{};                           // 0-255; black: the surface emits nothing
     float emission_strength = 1;               // multiplies it
     float occlusion = 1;                       // multiplies what is reflected of ambient light
-    std::vector<ParameterTexture> textures{};  // of emission and occlusion
+    float opacity = 1;                         // the fraction of what is behind that the surface covers
+    float opacity_cutoff = 0;                  // above 0: the surface is there where its opacity is at
+                                               // least this, and opaque; elsewhere it is not
+    std::vector<ParameterTexture> textures{};  // of emission, occlusion and opacity
 
     CANDELA_EXPORT bool has_texture(std::string_view parameter) const;
     CANDELA_EXPORT bool emits() const;
+    /// Whether something may be seen through the surface; it is then drawn from both sides.
+    CANDELA_EXPORT bool is_see_through() const;
     friend bool operator==(const CommonMaterial&, const CommonMaterial&) = default;
 };
 

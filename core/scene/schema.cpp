@@ -286,6 +286,17 @@ Table<CommonMaterial> material() {
                "light is not changed; a texture may give it",
                &CommonMaterial::occlusion)
              .range(0, 1)
+             .omitted_by_default(),
+         field(Type::real, "opacity",
+               "the fraction of what is behind that the surface covers; below 1, the surface is drawn from "
+               "both sides; a texture may give it, such as the alpha of a picture: channel = \"a\"",
+               &CommonMaterial::opacity)
+             .range(0, 1)
+             .omitted_by_default(),
+         field(Type::real, "opacity_cutoff",
+               "above 0: the surface is opaque where its opacity is at least this, and absent elsewhere",
+               &CommonMaterial::opacity_cutoff)
+             .range(0, 1)
              .omitted_by_default()}};
 }
 
@@ -301,9 +312,9 @@ Table<ParameterTexture> texture() {
                &ParameterTexture::file)
              .required()
              .placed(&ParameterTexture::place),
-         choice({"rgb", "r", "g", "b"}, "channel",
-                "what the parameter takes: all channels, or one; a parameter with one number takes the red "
-                "one unless told",
+         choice({"rgb", "r", "g", "b", "a"}, "channel",
+                "what the parameter takes: all channels, or one, where a is the opacity of the picture's "
+                "pixels; a parameter with one number takes the red one unless told",
                 &ParameterTexture::channel)
              .omitted_by_default(),
          field(Type::rgb, "scale", "multiplies the picture; one number or three", &ParameterTexture::scale)
@@ -422,7 +433,9 @@ const Parameter& color_parameter() {
     return *std::ranges::find(own_tables().object.about().parameters, "color", &Parameter::name);
 }
 
-bool takes_texture(const Parameter& of_material) { return of_material.name != "emission_strength"; }
+bool takes_texture(const Parameter& of_material) {
+    return of_material.name != "emission_strength" && of_material.name != "opacity_cutoff";
+}
 
 const TableSchema& texture_schema() { return own_tables().texture.about(); }
 

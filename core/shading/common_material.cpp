@@ -1,8 +1,10 @@
-// The keys of every material: emission, and the occlusion of ambient light.
+// The keys of every material: emission, the occlusion of ambient light, and opacity.
 module;
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 
 module candela.shading;
 
@@ -45,6 +47,25 @@ void occlude(const SurfaceModels& surface, const SurfacePoints& points, std::siz
         const float open = occlusion_at(surface, points, i);
         ambient.set(i, {open * ambient.x[i], open * ambient.y[i], open * ambient.z[i]});
     }
+}
+
+std::optional<float> uniform_opacity(const SurfaceModels& surface) {
+    if (surface.opacity_textures.arrays() > 0) return std::nullopt;
+    if (surface.opacity_cutoff <= 0) return surface.opacity;
+    return surface.opacity >= surface.opacity_cutoff ? 1.0f : 0.0f;
+}
+
+void find_opacity(const SurfaceModels& surface, SurfacePoints& points, float* opacity) {
+    if (const std::optional<float> uniform = uniform_opacity(surface)) {
+        std::fill_n(opacity, points.count, *uniform);
+        return;
+    }
+    if (points.parameters.empty()) points.parameters.emplace_back(k_batch_size);
+    evaluate(surface.opacity_textures, points.filled, coordinates_of(points), points.parameters);
+    const float* const found = points.parameters.front().data();
+    const float cutoff = surface.opacity_cutoff;
+    for (std::size_t i = 0; i < points.count; ++i)
+        opacity[i] = cutoff <= 0 ? found[i] : found[i] >= cutoff ? 1.0f : 0.0f;
 }
 
 }  // namespace candela

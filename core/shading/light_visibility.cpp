@@ -5,10 +5,12 @@ module;
 #include "candela/kernel/simd_dispatch.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -17,6 +19,7 @@ module candela.shading;
 
 import :clearing;
 import :light_visibility;
+import :surface_shader;
 import candela.api;
 import candela.geometry;
 import candela.raster;
@@ -350,14 +353,53 @@ void LightVisibility::add_sample(const LightSample& light, int sample) {
 ConstVec3Span LightVisibility::trace(const LightSample& light, const ConstVec3Span& position) {
     aim(light, position);
     crossings_.clear();
+    passages_.clear();
     tree_->find_visible({.count = count_,
                          .origin = std::as_const(origin_).span(),
                          .direction = std::as_const(towards_).span(),
                          .length = length_.data(),
                          .flags = flags_.data(),
                          .object = object_},
-                        visible_.data(), crossings_);
+                        visible_.data(), crossings_, &passages_);
+    if (!passages_.empty()) pass_through_surfaces();
     return traced();
+}
+
+void LightVisibility::pass_through_surfaces() {
+    // Batches of points on one object.
+    std::ranges::stable_sort(passages_, {}, &Passage::object);
+    for (std::size_t first = 0; first < passages_.size();) {
+        std::size_t end = first + 1;
+        while (end < passages_.size() && end - first < k_batch_size &&
+               passages_[end].object == passages_[first].object)
+            ++end;
+        pass_through(std::span(passages_).subspan(first, end - first));
+        first = end;
+    }
+}
+
+void LightVisibility::pass_through(std::span<const Passage> passages) {
+    const Transmitter& through = transmitters_[passages.front().object];
+    const std::optional<float> uniform = uniform_opacity(*through.surface);
+    if (!uniform) {
+        if (passed_ == nullptr) passed_ = std::make_unique<SurfacePoints>();
+        std::array<std::uint32_t, k_batch_size> triangles;
+        passed_at_.resize(k_batch_size);
+        for (std::size_t i = 0; i < passages.size(); ++i) {
+            triangles[i] = passages[i].triangle;
+            passed_at_.span().set(i, passages[i].barycentric);
+        }
+        gather_places(*through.mesh, std::span(triangles).first(passages.size()),
+                      std::as_const(passed_at_).span(), k_opacity_needs, *passed_);
+        // With the finest texels: it is not known how far apart rays are.
+        for (AlignedVector<float>* const array :
+             {&passed_->dudx, &passed_->dvdx, &passed_->dudy, &passed_->dvdy})
+            std::ranges::fill(*array, 0.0f);
+        opacity_.resize(k_batch_size);
+        find_opacity(*through.surface, *passed_, opacity_.data());
+    }
+    for (std::size_t i = 0; i < passages.size(); ++i)
+        visible_[passages[i].ray] *= 1 - (uniform ? *uniform : opacity_[i]);
 }
 
 ConstVec3Span LightVisibility::traced() {

@@ -46,6 +46,22 @@ struct PlacedCoordinates {
     }
 };
 
+/// The channel of the texels that number `of` of a parameter takes.
+std::size_t texel_channel_of(TextureChannel channel, std::size_t of) {
+    switch (channel) {
+        case TextureChannel::rgb:
+            return of;
+        case TextureChannel::green:
+            return 1;
+        case TextureChannel::blue:
+            return 2;
+        case TextureChannel::red:
+        case TextureChannel::alpha:  // all three of read_opacity_map()
+            return 0;
+    }
+    return 0;
+}
+
 }  // namespace
 
 std::array<float, 6> placing_of(const TextureTransform& transform) noexcept {
@@ -68,6 +84,7 @@ std::array<int, 2> PlacedTexture::texel_at(float u, float v) const noexcept {
 
 ColorEncoding encoding_of(const ParameterTexture& texture, const Parameter& parameter,
                           ColorEncoding of_scene) noexcept {
+    if (texture.channel == TextureChannel::alpha) return ColorEncoding::none;
     switch (texture.encoding) {
         case TextureEncoding::linear:
             return ColorEncoding::none;
@@ -113,7 +130,8 @@ void MaterialTextures::add(const ParameterTexture& texture, const Parameter& par
 
 void MaterialTextures::add_common(const ParameterTexture& texture, const PlacedTexture& picture) {
     const Parameter& parameter = material_parameter(texture.parameter);
-    (parameter.type == ParamType::color ? emission : occlusion) = numbers.size();
+    if (texture.parameter == "emission") emission = numbers.size();
+    if (texture.parameter == "occlusion") occlusion = numbers.size();
     add_numbers(texture, parameter, 0, picture);
 }
 
@@ -135,9 +153,8 @@ void MaterialTextures::add_numbers(const ParameterTexture& texture, const Parame
         offsets{texture.offset.x, texture.offset.y, texture.offset.z};
     const std::size_t channels = parameter.type == ParamType::real ? 1 : 3;
     for (std::size_t c = 0; c < channels; ++c) {
-        const auto one = static_cast<std::size_t>(std::max(static_cast<int>(texture.channel) - 1, 0));
         numbers.push_back({.texture = number,
-                           .texel_channel = texture.channel == TextureChannel::rgb ? c : one,
+                           .texel_channel = texel_channel_of(texture.channel, c),
                            .parameter = index,
                            .channel = c,
                            .scale = unit * scales[c],

@@ -50,6 +50,9 @@ struct CANDELA_EXPORT SurfaceModels {
     MaterialTextures material_textures{};
     Rgb emission{};       // added to the light that the points reflect; multiplies its texture, if it has one
     float occlusion = 1;  // multiplies what they reflect of ambient light, where no texture does
+    float opacity = 1;    // of all points, where no texture gives it
+    float opacity_cutoff = 0;             // above 0: points with less are absent, the others opaque
+    MaterialTextures opacity_textures{};  // with one number, or none
     std::string shading_plugin;
     std::unique_ptr<ShadingModel> shading;
     ShadingNeeds shading_needs{};
@@ -72,6 +75,10 @@ struct CANDELA_EXPORT SurfaceModels {
         return occlusion != 1 || material_textures.occlusion != MaterialTextures::k_none;
     }
 
+    bool is_see_through() const {
+        return opacity_textures.arrays() > 0 || (opacity_cutoff > 0 ? opacity < opacity_cutoff : opacity < 1);
+    }
+
     PointNeeds needs() const;
 };
 
@@ -84,10 +91,13 @@ struct ShadedObject {
     bool receives_shadows = true;
 };
 
-/// A surface that light passes through: a transparent model, and the object's colour.
+/// A surface that light passes through: a transparent model, and the object's colour; or one that covers only
+/// a part of what is behind it.
 struct Transmitter {
     const EnvironmentReflection* model = nullptr;
     Rgb color{};
+    const SurfaceModels* surface = nullptr;
+    const Mesh* mesh = nullptr;
 };
 
 /// The lights of a scene, and the view of it.
@@ -100,9 +110,8 @@ struct LightingContext {
     // Shadows.
     const OcclusionTree* occlusion = nullptr;  // of all objects; null: light is not blocked
     ShadowPattern pattern = ShadowPattern::varied;
-    int samples = 1;  // per pixel, which the edges of shadows are smoothed with
-    std::span<const Transmitter>
-        transmitters{};  // by object, if any is transparent; the others have no model
+    int samples = 1;                              // per pixel, which the edges of shadows are smoothed with
+    std::span<const Transmitter> transmitters{};  // by object, if light passes through any
 };
 
 }  // namespace candela

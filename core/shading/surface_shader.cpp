@@ -169,18 +169,22 @@ PointNeeds SurfaceModels::needs() const {
     return {.face_normal = shading_needs.face_normal,
             .vertex_normal = shading_needs.vertex_normal,
             .barycentric = shading_needs.barycentric,
-            .uv = shading_needs.uv || reflection_needs.uv || has_textures(),
-            .footprint = has_textures(),
+            .uv = shading_needs.uv || reflection_needs.uv || has_textures() || opacity_textures.arrays() > 0,
+            .footprint = has_textures() || opacity_textures.arrays() > 0,
             .derivatives =
                 shading_needs.derivatives || reflection_needs.tangent || material_textures.normal.has_value(),
             .triangle = shading_needs.triangle};
 }
 
+TextureCoordinates coordinates_of(const SurfacePoints& points) {
+    return {.uv = {points.u.data(), points.v.data()},
+            .per_x = {points.dudx.data(), points.dvdx.data()},
+            .per_y = {points.dudy.data(), points.dvdy.data()}};
+}
+
 void apply_textures(const SurfaceModels& surface, SurfacePoints& points) {
     if (!surface.has_textures()) return;
-    const TextureCoordinates at{.uv = {points.u.data(), points.v.data()},
-                                .per_x = {points.dudx.data(), points.dvdx.data()},
-                                .per_y = {points.dudy.data(), points.dvdy.data()}};
+    const TextureCoordinates at = coordinates_of(points);
     const std::size_t arrays = surface.material_textures.arrays();
     while (points.parameters.size() < arrays) points.parameters.emplace_back(k_batch_size);
     evaluate(surface.material_textures, points.filled, at, points.parameters);

@@ -35,6 +35,19 @@ export namespace candela {
 /// has any. The points must have been gathered with what the surface needs.
 CANDELA_EXPORT void apply_textures(const SurfaceModels& surface, SurfacePoints& points);
 
+/// Writes the fraction of what is behind that the surface covers at each of `points`: 0 or 1 with a cutoff.
+/// The points must have been gathered with k_opacity_needs. Their `parameters` are overwritten.
+CANDELA_EXPORT void find_opacity(const SurfaceModels& surface, SurfacePoints& points, float* opacity);
+/// The same at all points, if no texture gives it.
+CANDELA_EXPORT std::optional<float> uniform_opacity(const SurfaceModels& surface);
+inline constexpr PointNeeds k_opacity_needs{.position = false,
+                                            .face_normal = false,
+                                            .vertex_normal = false,
+                                            .barycentric = false,
+                                            .color = false,
+                                            .uv = true,
+                                            .footprint = true};
+
 /// Evaluates light, batch by batch. Owns the batch's arrays: use one per thread.
 class CANDELA_EXPORT SurfaceShader {
   public:

@@ -30,6 +30,10 @@ enum class Term {
     triangle      // index in the object's mesh; -1 where there is none
 };
 
+/// Whether a term's values at the surfaces that a pixel shows one behind the other add up like the intensity,
+/// by what each covers. Of the others, the nearest surface's is shown.
+constexpr bool is_additive(Term term) noexcept { return term <= Term::emission || term == Term::background; }
+
 /// Whether a term is found at one fragment per pixel.
 constexpr bool is_geometric(Term term) noexcept { return term >= Term::depth; }
 

@@ -119,7 +119,8 @@ struct MaterialTextures {
     /// Adds the numbers of a parameter, the model's number `index`.
     CANDELA_EXPORT void add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
                             const PlacedTexture& picture);
-    /// Add those of a parameter of CommonMaterial, and of the colour; after all of the model's.
+    /// Add those of a parameter of CommonMaterial, and of the colour; after all of the model's. Opacity, which
+    /// is found before the others, has textures of its own.
     CANDELA_EXPORT void add_common(const ParameterTexture& texture, const PlacedTexture& picture);
     CANDELA_EXPORT void add_color(const ParameterTexture& texture, const PlacedTexture& picture);
 
@@ -154,6 +155,9 @@ struct TextureImage {
 /// no image plugin supports the format, the file is unreadable, or memory is short.
 CANDELA_EXPORT TextureImage read_texture(const std::filesystem::path& file, Registry& registry,
                                          ColorEncoding encoding);
+
+/// The opacity of a picture's pixels, in all three channels; 1 if its format has none.
+CANDELA_EXPORT TextureImage read_opacity_map(const std::filesystem::path& file, Registry& registry);
 
 /// The slopes of a picture's heights, those of its red channel, from texel to texel: in the red and green
 /// channels, along growing u and v, where k_level stands for none, and a level of 1 for an ascent by 1.

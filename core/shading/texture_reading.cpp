@@ -37,10 +37,10 @@ std::vector<std::uint16_t> decoding_table() {
 
 std::uint16_t quantized(float value) { return static_cast<std::uint16_t>(k_one * value + 0.5f); }
 
-}  // namespace
-
-DecodedTexels read_texels(const std::filesystem::path& file, Registry& registry, ColorEncoding encoding) {
-    const std::optional<DecodedImage> image = read_by_plugin(file, registry, encoding);
+/// Reads a picture that has the size of a texture.
+DecodedImage read_picture_of_texture(const std::filesystem::path& file, Registry& registry,
+                                     ColorEncoding encoding, bool with_opacity) {
+    std::optional<DecodedImage> image = read_by_plugin(file, registry, encoding, with_opacity);
     if (!image) {
         throw Error(ErrorCategory::failure,
                     fmt::format("'{}' has a format that no image plugin reads{}", file.string(),
@@ -55,8 +55,20 @@ DecodedTexels read_texels(const std::filesystem::path& file, Registry& registry,
     }
     constexpr std::size_t k_bytes = 4 * sizeof(std::uint16_t);
     require_memory(width * height * k_bytes * 4 / 3, fmt::format("the texture '{}'", file.string()));
+    return *std::move(image);
+}
 
-    const bool decodes = image->is_encoded && encoding == ColorEncoding::srgb;
+[[noreturn]] void throw_non_finite(const std::filesystem::path& file) {
+    throw Error(ErrorCategory::failure,
+                fmt::format("'{}' cannot be read as a picture: a pixel is non-finite", file.string()));
+}
+
+}  // namespace
+
+DecodedTexels read_texels(const std::filesystem::path& file, Registry& registry, ColorEncoding encoding) {
+    const DecodedImage image = read_picture_of_texture(file, registry, encoding, false);
+    const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
+    const bool decodes = image.is_encoded && encoding == ColorEncoding::srgb;
     const std::vector<std::uint16_t> table = decodes ? decoding_table() : std::vector<std::uint16_t>();
     MipMap::Texels texels(4 * width * height);
     std::atomic<bool> is_finite = true, was_clamped = false;
@@ -65,7 +77,7 @@ DecodedTexels read_texels(const std::filesystem::path& file, Registry& registry,
         bool finite = true, clamped = false;
         for (std::size_t i = begin * width; i < end * width; ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
-                const float value = image->values[3 * i + c];
+                const float value = image.values[3 * i + c];
                 finite = finite && std::isfinite(value);
                 clamped = clamped || value > 1;
                 const std::uint16_t whole = quantized(value > 0 ? std::min(value, 1.0f) : 0.0f);
@@ -75,11 +87,20 @@ DecodedTexels read_texels(const std::filesystem::path& file, Registry& registry,
         if (!finite) is_finite = false;
         if (clamped) was_clamped = true;
     });
-    if (!is_finite) {
-        throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' cannot be read as a picture: a pixel is non-finite", file.string()));
+    if (!is_finite) throw_non_finite(file);
+    return {image.width, image.height, std::move(texels), was_clamped};
+}
+
+TextureImage read_opacity_map(const std::filesystem::path& file, Registry& registry) {
+    const DecodedImage image = read_picture_of_texture(file, registry, ColorEncoding::none, true);
+    const std::size_t count = image.values.size() / 3;
+    MipMap::Texels texels(4 * count, quantized(1));
+    for (std::size_t i = 0; i < image.opacity.size(); ++i) {
+        const float value = image.opacity[i];
+        if (!std::isfinite(value)) throw_non_finite(file);
+        std::fill_n(&texels[4 * i], 3, quantized(std::clamp(value, 0.0f, 1.0f)));
     }
-    return {image->width, image->height, std::move(texels), was_clamped};
+    return {std::make_shared<const MipMap>(image.width, image.height, std::move(texels))};
 }
 
 TextureImage read_texture(const std::filesystem::path& file, Registry& registry, ColorEncoding encoding) {

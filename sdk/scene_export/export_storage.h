@@ -27,7 +27,7 @@ struct ExportStorage : ExportedGeometry {
         std::vector<ExportedValues> shadings, materials;
         std::vector<ParamSet> shading_values;
         std::vector<ExportedTexturedNumber> textured_numbers, color_numbers, emission_numbers,
-            occlusion_numbers;
+            occlusion_numbers, opacity_numbers;
         std::optional<ExportedNormalMap> normal_map;
     };
 

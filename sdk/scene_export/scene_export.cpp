@@ -77,6 +77,7 @@ class Exporter {
             to_.exported_objects[i].emission_numbers = to_.objects[i].emission_numbers;
             to_.exported_objects[i].color_numbers = to_.objects[i].color_numbers;
             to_.exported_objects[i].occlusion_numbers = to_.objects[i].occlusion_numbers;
+            to_.exported_objects[i].opacity_numbers = to_.objects[i].opacity_numbers;
         }
         ExportedScene& result = to_.scene;
         result.title = to_.title.c_str();
@@ -325,6 +326,16 @@ class Exporter {
         return known->second;
     }
 
+    /// The index of the opacity of a picture.
+    std::size_t opacity_map_of(const std::string& file) {
+        const auto [known, is_new] = opacity_maps_.try_emplace(file, to_.textures.size());
+        if (is_new) {
+            add_texture(file, read_opacity_map(file, registry_).mip_map);
+            to_.textures.back().is_opacity = true;
+        }
+        return known->second;
+    }
+
     /// The index of a picture of normals or slopes.
     std::size_t texture_of(const NormalMap& map) {
         if (!map.has_heights) return texture_of(map.file, ColorEncoding::none);
@@ -342,7 +353,7 @@ class Exporter {
             levels.push_back(
                 {level.width, level.height, mip_map->texels().subspan(4 * level.first, 4 * texels)});
         }
-        to_.textures.push_back({kept(file), levels});
+        to_.textures.push_back({.file = kept(file), .levels = levels});
     }
 
     std::optional<ExportedNormalMap> normal_map_of(const Object& object) {
@@ -382,16 +393,36 @@ class Exporter {
             refuse("emits light", "remove 'emission' from its material");
         if ((common.occlusion != 1 || common.has_texture("occlusion")) && !request_.abilities.occlusion)
             refuse("has an occlusion of ambient light", "remove 'occlusion' from its material");
+        if (common.is_see_through() && !request_.abilities.opacity)
+            refuse("is not opaque", "remove 'opacity' from its material");
+    }
+
+    ExportedTexturedNumber exported(const TexturedNumber& number, const PlacedTexture& placed,
+                                    std::size_t picture) const {
+        ExportedTexturedNumber result{.parameter = number.parameter,
+                                      .channel = number.channel,
+                                      .texture = picture,
+                                      .texel_channel = number.texel_channel,
+                                      .repeats = placed.wrap == TextureWrap::repeat,
+                                      .scale = number.scale,
+                                      .offset = number.offset,
+                                      .minimum = number.minimum,
+                                      .maximum = number.maximum};
+        std::ranges::copy(placing_of(placed.transform), result.placing);
+        return result;
     }
 
     /// The numbers of an object that come from pictures: of its own material, emission, occlusion and colour.
     void add_textured_numbers(const Object& object, ExportStorage::Object& to) {
         if (object.textures.empty() && object.common.textures.empty() && !object.color_texture) return;
-        MaterialTextures textures;
+        MaterialTextures textures, of_opacity;
         std::vector<std::size_t> pictures;  // of each texture: index of to_.textures
+        const auto picture_of = [&](const ParameterTexture& texture, const Parameter& parameter) {
+            if (texture.channel == TextureChannel::alpha) return opacity_map_of(texture.file);
+            return texture_of(texture.file, encoding_of(texture, parameter, scene_.image.color_management));
+        };
         const auto place = [&](const ParameterTexture& texture, const Parameter& parameter, const auto& add) {
-            const ColorEncoding encoding = encoding_of(texture, parameter, scene_.image.color_management);
-            const std::size_t picture = texture_of(texture.file, encoding);
+            const std::size_t picture = picture_of(texture, parameter);
             add(PlacedTexture{fmt::format("{}", picture), nullptr, texture.wrap, texture.transform});
             pictures.resize(textures.textures.size(), picture);
         };
@@ -403,7 +434,15 @@ class Exporter {
             });
         }
         for (const ParameterTexture& texture : object.common.textures) {
-            place(texture, material_parameter(texture.parameter),
+            const Parameter& parameter = material_parameter(texture.parameter);
+            if (texture.parameter == "opacity") {
+                const PlacedTexture placed{{}, nullptr, texture.wrap, texture.transform};
+                of_opacity.add_common(texture, placed);
+                to.opacity_numbers = {
+                    exported(of_opacity.numbers.front(), placed, picture_of(texture, parameter))};
+                continue;
+            }
+            place(texture, parameter,
                   [&](const PlacedTexture& placed) { textures.add_common(texture, placed); });
         }
         if (object.color_texture)
@@ -411,24 +450,13 @@ class Exporter {
                   [&](const PlacedTexture& placed) { textures.add_color(*object.color_texture, placed); });
         for (std::size_t i = 0; i < textures.numbers.size(); ++i) {
             const TexturedNumber& number = textures.numbers[i];
-            const PlacedTexture& placed = textures.textures[number.texture];
-            ExportedTexturedNumber exported{.parameter = number.parameter,
-                                            .channel = number.channel,
-                                            .texture = pictures[number.texture],
-                                            .texel_channel = number.texel_channel,
-                                            .repeats = placed.wrap == TextureWrap::repeat,
-                                            .scale = number.scale,
-                                            .offset = number.offset,
-                                            .minimum = number.minimum,
-                                            .maximum = number.maximum};
-            std::ranges::copy(placing_of(placed.transform), exported.placing);
             const bool is_of_model = i < textures.of_model, is_occlusion = i == textures.occlusion,
                        is_color = i >= textures.color && i - textures.color < 3;
             (is_of_model    ? to.textured_numbers
              : is_occlusion ? to.occlusion_numbers
              : is_color     ? to.color_numbers
                             : to.emission_numbers)
-                .push_back(exported);
+                .push_back(exported(number, textures.textures[number.texture], pictures[number.texture]));
         }
     }
 
@@ -438,7 +466,7 @@ class Exporter {
         auto& own = to_.objects.emplace_back();
         own.tessellator = made<Shape>(object.shape.name, object.shape.parameters);
         own.transform = object.transform;
-        own.encloses = object.encloses;
+        own.encloses = object.encloses || object.common.is_see_through();
         ExportedObject exported{
             .label = kept(name_in(object.label)),
             .color = object.color,
@@ -451,6 +479,8 @@ class Exporter {
             .emission = object.common.emission,
             .emission_strength = object.common.emission_strength,
             .occlusion = object.common.occlusion,
+            .opacity = object.common.opacity,
+            .opacity_cutoff = object.common.opacity_cutoff,
             .casts_shadows = object.casts_shadows,
             .receives_shadows = object.receives_shadows,
             .transmits_light = object.transmits_light};
@@ -488,7 +518,8 @@ class Exporter {
     const ExportRequest& request_;
     std::map<std::pair<PluginKind, std::string>, std::optional<Scene>> with_;
     std::map<std::pair<std::string, ColorEncoding>, std::size_t> textures_;  // indices of to_.textures
-    std::map<std::pair<std::string, TextureWrap>, std::size_t> slopes_;      // of bump maps
+    std::map<std::string, std::size_t> opacity_maps_;
+    std::map<std::pair<std::string, TextureWrap>, std::size_t> slopes_;  // of bump maps
 };
 
 }  // namespace

@@ -23,6 +23,8 @@ CANDELA_EMBED(candela_target_texture, CANDELA_TARGET_TEMPLATES "/texture.glsl");
 CANDELA_EMBED(candela_target_texture_vertex, CANDELA_TARGET_TEMPLATES "/texture_vertex.glsl");
 CANDELA_EMBED(candela_target_texture_fragment, CANDELA_TARGET_TEMPLATES "/texture_fragment.glsl");
 CANDELA_EMBED(candela_target_shadow_fragment, CANDELA_TARGET_TEMPLATES "/shadow_fragment.glsl");
+CANDELA_EMBED(candela_target_layer_uniforms, CANDELA_TARGET_TEMPLATES "/layer_uniforms.glsl");
+CANDELA_EMBED(candela_target_cover, CANDELA_TARGET_TEMPLATES "/cover.glsl");
 CANDELA_EMBED(candela_target_screen, CANDELA_TARGET_TEMPLATES "/screen.glsl");
 CANDELA_EMBED(candela_target_accumulate, CANDELA_TARGET_TEMPLATES "/accumulate.glsl");
 CANDELA_EMBED(candela_target_encode, CANDELA_TARGET_TEMPLATES "/encode.glsl");
@@ -180,6 +182,7 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     const bool is_textured = !scene.textures.empty();
     GlslParts parts;
     const auto if_shadows = [&](const char* text) { return scene.has_shadows ? text : ""; };
+    const auto if_layers = [&](const char* text) { return has_opacity(scene) ? text : ""; };
     const std::string lit =
         filled(candela_target_lit,
                {{"PREPARATION", calls_of_preparations(scene)},
@@ -213,6 +216,8 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
                                       {{"DEPTH_UNIFORM", depth.uniform},
                                        {"DEPTH", depth.statement},
                                        {"SHADOW_PLACE", if_shadows(candela_target_shadow_fragment)},
+                                       {"LAYER_UNIFORMS", if_layers(candela_target_layer_uniforms)},
+                                       {"COVER", if_layers(candela_target_cover)},
                                        {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
     if (is_textured) {
         const std::string texture = filled(candela_target_texture, {{"UNITS", material_units(scene)}});
@@ -221,6 +226,7 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     }
     parts.materials = textured_materials(scene);
     parts.normal_maps = normal_map_texts(scene);
+    parts.opacities = textured_opacities(scene);
     parts.common_materials = textured_common_materials(scene);
     parts.screen = candela_target_screen;
     parts.accumulate = candela_target_accumulate;

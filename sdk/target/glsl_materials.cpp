@@ -33,6 +33,11 @@ constexpr const char* k_reads_pictures =
     "#ifndef READS_PICTURES\n#define READS_PICTURES\n"
     "vec3 material_texel(ColorTexture t, vec3 u, vec3 v);\n#endif\n";
 
+constexpr const char* k_number_of =
+    "#ifndef HAS_NUMBER_OF\n#define HAS_NUMBER_OF\n"
+    "float number_of(float texel, float scale, float offset, float low, float high) {\n"
+    "    return min(max(offset + scale * texel, low), high);\n}\n#endif\n";
+
 /// `has_model`: with the object's own reflection model.
 std::string text_of(const ExportedScene& scene, const ExportedObject& object, bool has_model) {
     const auto lookup = [&](const ExportedTexturedNumber& n) { return texel_text(object, n); };
@@ -46,13 +51,22 @@ std::string text_of(const ExportedScene& scene, const ExportedObject& object, bo
         if (has_emission(scene)) start += "    own_emission = object_emission;\n";
         if (has_occlusion(scene)) start += "    own_occlusion = object_occlusion;\n";
     }
-    return k_reads_pictures +
-           fmt::format(
-               "float number_of(float texel, float scale, float offset, float low, float high) {{\n"
-               "    return min(max(offset + scale * texel, low), high);\n}}\n"
-               "// {}: textures give some numbers of its material.\n"
-               "void find_material() {{\n{}{}{}{}}}\n",
-               ascii_identifier(object.label), start, texels, assignments, common);
+    return k_reads_pictures + fmt::format(
+                                  "{}// {}: textures give some numbers of its material.\n"
+                                  "void find_material() {{\n{}{}{}{}}}\n",
+                                  k_number_of, ascii_identifier(object.label), start, texels, assignments,
+                                  common);
+}
+
+std::string opacity_text_of(const ExportedObject& object) {
+    if (object.opacity_numbers.empty()) return "";
+    const ExportedTexturedNumber& number = object.opacity_numbers.front();
+    return k_reads_pictures + fmt::format(
+                                  "{}#define TEXTURED_OPACITY\n"
+                                  "// {}: a texture gives its opacity.\n"
+                                  "float textured_opacity() {{\n    vec3 texel = {};\n    return {};\n}}\n",
+                                  k_number_of, ascii_identifier(object.label), texel_text(object, number),
+                                  number_text(number, "texel"));
 }
 
 std::string normal_text_of(const ExportedObject& object) {
@@ -78,6 +92,7 @@ std::vector<MaterialPicture> material_pictures(const ExportedObject& object) {
         if (std::ranges::find(pictures, one) == pictures.end()) pictures.push_back(one);
     };
     for (const ExportedTexturedNumber& n : all_textured_numbers(object)) add({n.texture, n.repeats});
+    for (const ExportedTexturedNumber& n : object.opacity_numbers) add({n.texture, n.repeats});
     if (object.normal_map != nullptr) add({object.normal_map->texture, object.normal_map->repeats});
     return pictures;
 }
@@ -97,6 +112,24 @@ std::vector<std::string> textured_materials(const ExportedScene& scene) {
                 fmt::format("the material of object {} reads {} pictures; shaders have room for {}",
                             object.label, material_pictures(object).size(), k_most_material_pictures));
         all.push_back(all_textured_numbers(object).empty() ? "" : text_of(scene, object, true));
+    }
+    return all;
+}
+
+std::vector<std::string> textured_opacities(const ExportedScene& scene) {
+    std::vector<std::string> all;
+    for (const ExportedObject& object : scene.objects) {
+        all.push_back(opacity_text_of(object));
+        if (!all.back().empty() && scene.shadings[object.shading].rate != ShadingRate::fragment)
+            throw std::runtime_error(fmt::format(
+                "a texture gives the opacity of object {}, which shaders read only where light is "
+                "evaluated for each fragment; use shading \"phong\"",
+                object.label));
+        if (scene.has_shadows && object.casts_shadows && object.is_see_through())
+            throw std::runtime_error(
+                fmt::format("object {} lets some light through, which the shadows of shaders do not; set "
+                            "casts_shadows = false, or draw the scene with --no-shadows",
+                            object.label));
     }
     return all;
 }

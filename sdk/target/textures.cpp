@@ -21,6 +21,7 @@ namespace candela::target {
 namespace {
 
 constexpr int k_not_encoded = -1;
+constexpr const char* k_channels[] = {".x", ".y", ".z"};
 
 /// For each intensity, the byte that decodes to it.
 std::vector<int> encoded_bytes(ColorEncoding encoding) {
@@ -59,14 +60,18 @@ std::string ppm_of(const TexturePixels& pixels) {
     return file;
 }
 
-MaterialStatements material_statements(
-    const ExportedScene& scene, const ExportedObject& object, const MaterialNames& names,
-    const std::function<std::string(const ExportedTexturedNumber&)>& lookup) {
-    constexpr const char* k_channels[] = {".x", ".y", ".z"};
+std::string number_text(const ExportedTexturedNumber& n, const std::string& texel) {
     const auto finite = [](float x) {
         constexpr float k_largest = std::numeric_limits<float>::max();
         return float_text(std::clamp(x, -k_largest, k_largest));
     };
+    return fmt::format("number_of({}{}, {}, {}, {}, {})", texel, k_channels[n.texel_channel],
+                       float_text(n.scale), float_text(n.offset), finite(n.minimum), finite(n.maximum));
+}
+
+MaterialStatements material_statements(
+    const ExportedScene& scene, const ExportedObject& object, const MaterialNames& names,
+    const std::function<std::string(const ExportedTexturedNumber&)>& lookup) {
     MaterialStatements statements;
     std::vector<std::string> lookups;
     const auto value_of = [&](const ExportedTexturedNumber& n) {
@@ -78,8 +83,7 @@ MaterialStatements material_statements(
                 fmt::format("{}{} texel_{} = {};\n", names.indent, names.texel_type, place, texel);
             lookups.push_back(texel);
         }
-        return fmt::format("number_of(texel_{}{}, {}, {}, {}, {})", place, k_channels[n.texel_channel],
-                           float_text(n.scale), float_text(n.offset), finite(n.minimum), finite(n.maximum));
+        return number_text(n, fmt::format("texel_{}", place));
     };
     if (names.has_model) {
         for (const ExportedTexturedNumber& n : object.textured_numbers) {
@@ -121,6 +125,16 @@ bool has_occlusion(const ExportedScene& scene) {
     return std::ranges::any_of(scene.objects, [](const ExportedObject& object) {
         return object.occlusion != 1 || !object.occlusion_numbers.empty();
     });
+}
+
+bool has_opacity(const ExportedScene& scene) {
+    return std::ranges::any_of(scene.objects,
+                               [](const ExportedObject& object) { return object.is_see_through(); });
+}
+
+bool has_textured_opacity(const ExportedScene& scene) {
+    return std::ranges::any_of(scene.objects,
+                               [](const ExportedObject& object) { return !object.opacity_numbers.empty(); });
 }
 
 std::vector<ExportedTexturedNumber> all_textured_numbers(const ExportedObject& object) {

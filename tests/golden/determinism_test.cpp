@@ -94,6 +94,33 @@ shading = "phong"
 reflection = "dielectric"
 )";
 
+/// Surfaces that cover a part of it, and of one another.
+const std::string k_layered_scene = k_shadow_scene + R"([[object]]
+type = "sphere"
+radius = 0.8
+position = [-0.6, 0.1, 0.9]
+shading = "phong"
+reflection = "phong"
+[object.material]
+opacity = 0.45
+[[object]]
+type = "torus"
+position = [-0.2, 0.2, 0.7]
+rotation = [50, 20, 0]
+shading = "gouraud"
+reflection = "lambert"
+[object.material]
+opacity = 0.3
+[[object]]
+type = "cube"
+position = [0.7, 0, 0.8]
+shading = "flat"
+reflection = "lambert"
+[object.material]
+opacity = 0.3
+opacity_cutoff = 0.5
+)";
+
 class Fixture {
   public:
     explicit Fixture(int samples, const std::string& scene = k_scene, const std::string& shadows = "false")
@@ -153,6 +180,27 @@ TEST_CASE("a picture with shadows depends neither on threads nor on tiles nor on
         }
         CHECK((in_parts == expected));
         CHECK((Fixture(samples, k_shadow_scene).picture(1, 64) != expected));
+    }
+}
+
+TEST_CASE("surfaces behind others depend neither on threads nor on tiles nor on what else is rendered") {
+    for (const int samples : {1, 4}) {
+        for (const char* const shadows : {"false", "true"}) {
+            INFO(samples << " samples, shadows " << shadows);
+            const Fixture fixture(samples, k_layered_scene, shadows);
+            const auto expected = fixture.picture(1, 64);
+            for (const int tile_size : {16, 32, 128}) {
+                INFO("tiles of " << tile_size);
+                CHECK((fixture.picture(3, tile_size) == expected));
+            }
+            std::vector<float> in_parts;
+            for (const candela::RowRange rows :
+                 {candela::RowRange{0, 50}, candela::RowRange{50, 133}, candela::RowRange{133, 217}}) {
+                const auto part = fixture.rows(rows, 2, 32);
+                in_parts.insert(in_parts.end(), part.begin(), part.end());
+            }
+            CHECK((in_parts == expected));
+        }
     }
 }
 

@@ -131,6 +131,8 @@ Json json_of(const Explanation& e, const InspectedFragment& fragment) {
             {"triangle", fragment.triangle},
             {"barycentric", json_of(fragment.barycentric)},
             {"weight", fragment.weight},
+            {"layer", fragment.layer},
+            {"opacity", fragment.opacity},
             {"position", json_of(fragment.position)},
             {"shading", candela::shown_model_name(object.shading.name)},
             {"shaded_per", name_of(fragment.rate)},

@@ -95,6 +95,26 @@ class Writer {
             write(fragment.points[i], object, fragment.object);
         }
         if (fragment.points.size() > 1) value(1, "I", fragment.intensity, "interpolated");
+        write_opacity(fragment, object);
+    }
+
+    /// How much the surface covers, if something may be seen through it or it is seen through others.
+    void write_opacity(const InspectedFragment& fragment, const candela::Object& object) {
+        const candela::SurfaceModels& surface = e_.compiled.objects[fragment.object].surface;
+        if (!surface.is_see_through() && fragment.layer == 0) return;
+        std::string remark;
+        if (!candela::uniform_opacity(surface)) {
+            const auto texture =
+                std::ranges::find(object.common.textures, "opacity", &candela::ParameterTexture::parameter);
+            remark = "  texture " + std::filesystem::path(texture->file).filename().string();
+        }
+        if (surface.opacity_cutoff > 0)
+            remark +=
+                fmt::format("{}opacity_cutoff {:g}", remark.empty() ? "  " : ", ", surface.opacity_cutoff);
+        if (fragment.layer > 0)
+            remark += fmt::format("{}behind {} surface{}", remark.empty() ? "  " : ", ", fragment.layer,
+                                  fragment.layer == 1 ? "" : "s");
+        line(1, fmt::format("opacity = {:.6g}{}", fragment.opacity, remark));
     }
 
     /// The material's parameters that have textures, and where in the pictures the point is.

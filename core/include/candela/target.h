@@ -64,7 +64,8 @@ struct ExportedTextureLevel {
 
 /// A picture on surfaces. Levels, and values between them, are looked up as candela.shading does.
 struct ExportedTexture {
-    const char* file = "";  // absolute path
+    const char* file = "";    // absolute path
+    bool is_opacity = false;  // the texels' three channels are the opacity of the file's pixels
     std::span<const ExportedTextureLevel> levels{};
 };
 
@@ -116,6 +117,14 @@ struct ExportedObject {
     std::span<const ExportedTexturedNumber> emission_numbers{};  // three, if it has a texture, or none
     float occlusion = 1;  // multiplies what it reflects of ambient light
     std::span<const ExportedTexturedNumber> occlusion_numbers{};  // one, if it has a texture, or none
+    float opacity = 1;         // the fraction of what is behind that it covers; at each sample, whatever the
+                               // shading model
+    float opacity_cutoff = 0;  // above 0: opaque where its opacity is at least this, absent elsewhere
+    std::span<const ExportedTexturedNumber> opacity_numbers{};  // one, if it has a texture, or none
+    /// Whether something may be seen through it.
+    bool is_see_through() const noexcept {
+        return !opacity_numbers.empty() || (opacity_cutoff > 0 ? opacity < opacity_cutoff : opacity < 1);
+    }
     // With ExportedScene::has_shadows:
     bool casts_shadows = true;     // it blocks light
     bool receives_shadows = true;  // others, and its own parts, block light on it
@@ -264,6 +273,7 @@ struct TargetAbilities {
     bool normal_maps = false;            // ExportedObject::normal_map
     bool emission = false;               // ExportedObject::emission, and its texture
     bool occlusion = false;              // ExportedObject::occlusion, and its texture
+    bool opacity = false;                // ExportedObject::opacity, its texture and cutoff
     bool shadows = false;                // ExportedScene::has_shadows
     bool display = false;                // exposure and tone of ExportedImage
 };

@@ -30,6 +30,8 @@ class SceneTextures {
     std::string key_of(const std::string& file, ColorEncoding decoding) const;
     const std::shared_ptr<const MipMap>& picture(const std::string& file, ColorEncoding decoding,
                                                  const SourceLocation& place);
+    const std::shared_ptr<const MipMap>& opacity_map(const std::string& file);
+    PlacedTexture placed(const ParameterTexture& texture, const Parameter& parameter);
     void make_normal_map(const Object& object, const NormalMap& map, SurfaceModels& surface);
 
     Registry& registry_;

@@ -11,6 +11,7 @@ module candela.render:tile;
 import :render_scene;
 import :film;
 import :sparse_set;
+import :tile_layers;
 import candela.api;
 import candela.raster;
 import candela.scene;
@@ -18,15 +19,6 @@ import candela.shading;
 import candela.util;
 
 namespace candela {
-
-/// The visible fragments of one tile.
-struct VisibleTile {
-    int x0 = 0, y0 = 0, width = 0, height = 0, stride = 0;  // as in TileVisibility
-    bool is_empty = true;                                   // shows only the background
-    TileFragments fragments;
-
-    std::size_t plane() const { return static_cast<std::size_t>(stride) * static_cast<std::size_t>(stride); }
-};
 
 /// Whether the background is shown (see RenderOptions).
 bool shows_background(Term term, std::optional<std::size_t> light);
@@ -48,9 +40,12 @@ class TileShader {
                std::optional<std::size_t> light = {});
 
     Term term() const { return term_; }
+    const ProjectedScene& projected() const { return *projected_; }
 
     /// Fills the tile's pixels with the background, weighted by the fraction of each pixel that shows it.
     void fill_background(const VisibleTile& visible);
+    /// Adds the background that a layer behind others shows.
+    void add_background(const VisibleTile& layer);
 
     // Adds one object's fragments to the tile's pixels, lit once per fragment, face or vertex.
     void shade_fragments(const FragmentList& fragments);
@@ -84,6 +79,7 @@ class TileShader {
     Vec3Arrays places_;                 // of a tile's faces or vertices
     Vec3Arrays pixels_;
     Vec3Arrays towards_;  // the lines of sight of a run's pixels
+    Vec3Arrays seen_;     // what they see of the background
     std::size_t points_lit_ = 0;
     float brightest_ = 0;
 };
@@ -92,6 +88,7 @@ class TileShader {
 struct TileWorker {
     TileVisibility visibility;
     VisibleTile visible;
+    TileLayers layers;
     TileShader shader;
     std::size_t pixels_shaded = 0;
 };

@@ -5,10 +5,14 @@ module;
 module candela.shading:common_material;
 
 import :surface;
+import :texture;
 import candela.api;
 import candela.raster;
 
 namespace candela {
+
+/// Where textures are read.
+TextureCoordinates coordinates_of(const SurfacePoints& points);
 
 /// The emission of points whose textures have been evaluated.
 void find_emission(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count,

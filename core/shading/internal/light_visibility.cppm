@@ -4,6 +4,7 @@ module;
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -86,6 +87,9 @@ class LightVisibility {
     /// not its triangle: the surface rises towards the light.
     void lift_from_hollows(const LightSample& light, const ConstVec3Span& position);
     ConstVec3Span traced();
+    /// Multiplies visible_ by what see-through surfaces let pass.
+    void pass_through_surfaces();
+    void pass_through(std::span<const Passage> passages);
 
     const OcclusionTree* tree_ = nullptr;
     std::span<const Transmitter> transmitters_;
@@ -107,6 +111,10 @@ class LightVisibility {
     AlignedVector<float> length_, visible_, offset_x_, offset_y_, distance_, brightness_;
     AlignedVector<std::uint32_t> flags_;
     std::vector<Crossing> crossings_;
+    std::vector<Passage> passages_;
+    std::unique_ptr<SurfacePoints> passed_;  // created for the first of them
+    Vec3Arrays passed_at_;                   // in barycentric coordinates
+    AlignedVector<float> opacity_;           // there
     static constexpr std::size_t k_packets = k_batch_size / OcclusionTree::k_packet;
     bool has_region_ = false, has_packets_ = false;  // found once asked for
     Bounds region_;                                  // of all points

@@ -22,6 +22,7 @@
 #include "candela/target_plugin.h"
 #include "lights.h"
 #include "objects.h"
+#include "opacity.h"
 #include "shadows.h"
 #include "textures.h"
 #include "vectors.h"
@@ -52,7 +53,10 @@ class CppWriter {
         std::string glue = lights_.constants + lights_.loops + reflection() + shading() +
                            if_triangles(k_triangle_of) + textures_.declarations + textures_.seen +
                            objects_.shapes() + objects_.statements() + text;
-        for (const auto& [name, part] : shadows_) glue += part;
+        const Values opacity = opacity_texts(scene_, shadows_, objects_.textured_opacities());
+        for (const Values& parts : {shadows_, opacity}) {
+            for (const auto& [name, part] : parts) glue += part;
+        }
         std::string kernels = model_kernels();
         const std::string library = vectors_for(kernels + textures_.declarations);
         glue += tone_kernel_text() + toned_text();
@@ -153,6 +157,7 @@ class CppWriter {
                                                     "----\n\nnamespace scene {\n" +
                                                         objects_.data() + "\n}  // namespace scene\n")}};
         values.insert(values.end(), shadows_.begin(), shadows_.end());
+        values.insert(values.end(), opacity.begin(), opacity.end());
         return filled(text, views_of(values));
     }
 
@@ -419,6 +424,7 @@ class CppTarget final : public Target {
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,
+                .opacity = true,
                 .shadows = true,
                 .display = true};
     }

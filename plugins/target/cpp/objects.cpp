@@ -112,6 +112,19 @@ void CppObjects::add_object(std::size_t index) {
         text += fmt::format("        o.textured = {};\n", textured_count_);
         textured_materials_ += textured_material(textured_count_++, object);
     }
+    if (object.is_see_through()) {
+        text += fmt::format("        o.opacity = {};\n", float_text(object.opacity));
+        if (object.opacity_cutoff > 0)
+            text += fmt::format("        o.opacity_cutoff = {};\n", float_text(object.opacity_cutoff));
+    }
+    if (!object.opacity_numbers.empty()) {
+        text += fmt::format("        o.textured_opacity = {};\n", textured_opacity_count_);
+        const ExportedTexturedNumber& number = object.opacity_numbers.front();
+        textured_opacities_ +=
+            fmt::format("    if (o.textured_opacity == {})  // {}\n        opacity = {};\n",
+                        textured_opacity_count_++, ascii_identifier(object.label),
+                        number_text(number, texel_text(number, "opacity_place(o, triangle, b, is_seen)")));
+    }
     if (casts_shadows(scene_)) {
         if (!object.casts_shadows) text += "        o.casts_shadows = false;\n";
         if (!object.receives_shadows) text += "        o.receives_shadows = false;\n";
@@ -120,14 +133,17 @@ void CppObjects::add_object(std::size_t index) {
     statements_ += text + "        all.push_back(o);\n    }\n";
 }
 
+/// Looks up a number's texel at a TexturePlace.
+std::string CppObjects::texel_text(const ExportedTexturedNumber& n, const char* at) {
+    return fmt::format("texture_at({{&texture_{}(), {}}}, placed({{{}, {}}}, {}))", n.texture, n.repeats,
+                       list(n.placing[0], n.placing[1], n.placing[2]),
+                       list(n.placing[3], n.placing[4], n.placing[5]), at);
+}
+
 /// Sets the numbers of an object's material that textures give.
 std::string CppObjects::textured_material(std::size_t number, const ExportedObject& object) const {
     const ExportedReflection& model = scene_.reflections[object.reflection];
-    const auto lookup = [](const ExportedTexturedNumber& n) {
-        return fmt::format("texture_at({{&texture_{}(), {}}}, placed({{{}, {}}}, at))", n.texture, n.repeats,
-                           list(n.placing[0], n.placing[1], n.placing[2]),
-                           list(n.placing[3], n.placing[4], n.placing[5]));
-    };
+    const auto lookup = [](const ExportedTexturedNumber& n) { return texel_text(n, "at"); };
     const auto [texels, assignments, common] = material_statements(
         scene_, object, {"        ", "const vec3", "m", "own.color", "own.emission", "own.occlusion"},
         lookup);

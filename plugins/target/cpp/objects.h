@@ -32,6 +32,8 @@ class CppObjects {
     const std::string& statements() const { return statements_; }
     /// The statements of material_at() for objects whose material has textures; empty if there are none.
     const std::string& textured_materials() const { return textured_materials_; }
+    /// The statements of opacity_at() for objects whose opacity a texture gives.
+    const std::string& textured_opacities() const { return textured_opacities_; }
     /// Declarations needed before that: functions that make triangles.
     std::string shapes() const;
     /// The end of the program: functions with triangles as numbers; empty if there are none.
@@ -45,14 +47,15 @@ class CppObjects {
     void add_object(std::size_t index);
     static std::string grid_text(const ExportedObject& object, const GridShape& grid, bool needs_derivatives);
     std::size_t mesh_number(const ExportedMesh& mesh);
+    static std::string texel_text(const ExportedTexturedNumber& number, const char* at);
     std::string textured_material(std::size_t number, const ExportedObject& object) const;
     void require_default_normals(std::size_t object) const;
 
     const ExportedScene& scene_;
     std::vector<ExportedModel> shape_models_;
     std::vector<std::string> meshes_;
-    std::string statements_, data_, textured_materials_;
-    std::size_t textured_count_ = 0;
+    std::string statements_, data_, textured_materials_, textured_opacities_;
+    std::size_t textured_count_ = 0, textured_opacity_count_ = 0;
     bool has_vertex_colors_ = false;
 };
 

@@ -7,6 +7,7 @@
 #include "candela/embed.h"
 #include "candela/target/kernels.h"
 #include "objects.h"
+#include "opacity.h"
 
 CANDELA_EMBED(candela_cpp_shadows, CANDELA_SOURCE_DIR "/templates/shadows.h");
 CANDELA_EMBED(candela_cpp_sample_offset, CANDELA_SOURCE_DIR "/templates/sample_offset.h");
@@ -42,7 +43,9 @@ std::string functions(const ExportedScene& scene) {
         std::ranges::any_of(scene.lights, [&](const auto& light) { return has_penumbras(scene, light); });
     const bool has_ambient_occlusion = std::ranges::any_of(
         scene.lights, [](const ExportedLight& light) { return light.ambient_occlusion_rays > 0; });
-    std::string text = filled(candela_cpp_shadows, {{"REFLECTS", reflects(scene)}}) + "\n";
+    Values values = opacity_of_shadows(scene);
+    values.emplace_back("REFLECTS", reflects(scene));
+    std::string text = filled(candela_cpp_shadows, views_of(values)) + "\n";
     if (has_extents || (has_ambient_occlusion && scene.shadows_vary))
         text += std::string(candela_cpp_sample_offset) + "\n";
     if (has_extents) text += std::string(candela_cpp_penumbras) + "\n";

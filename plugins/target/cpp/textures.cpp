@@ -24,6 +24,9 @@ namespace {
 constexpr const char* k_placing =
     "// How a texture is placed: u' = m[0] u + m[1] v + m[2], v' with the other three.\n"
     "using Placing = std::array<float, 6>;\n\n";
+constexpr const char* k_number_of =
+    "float number_of(float texel, float scale, float offset, float low, float high) { return "
+    "std::min(std::max(offset + scale * texel, low), high); }\n\n";
 
 }  // namespace
 
@@ -37,14 +40,18 @@ TextureTexts textures_of(const ExportedScene& scene, const std::string& textured
             "    return levels;\n}}\n\n",
             i, title_of(scene.textures[i]), texture_file(i));
     }
-    const bool has_materials = !textured_materials.empty(), has_normals = has_normal_maps(scene);
+    const bool has_materials = !textured_materials.empty(), has_normals = has_normal_maps(scene),
+               has_opacities = has_textured_opacity(scene);
+    const std::string seen = filled(candela_cpp_texture_seen,
+                                    {{"IS_SEEN_PARAMETER", has_opacities ? ", bool is_seen = false" : ""},
+                                     {"IS_SEEN", has_opacities ? "is_seen || " : ""}});
     return {filled(candela_cpp_textures, {{"FILE", std::string(texture_file_source())},
                                           {"KERNEL", std::string(texture_kernel())},
                                           {"PICTURES", images}}) +
                 k_placing +
                 (has_normals ? filled(candela_cpp_normal_maps, {{"KERNEL", std::string(normal_map_kernel())}})
                              : std::string()),
-            std::string(candela_cpp_texture_seen) + candela_cpp_placed_texture +
+            seen + candela_cpp_placed_texture + (has_materials || has_opacities ? k_number_of : "") +
                 (has_normals ? candela_cpp_normal_texel : "") +
                 (has_materials ? filled(candela_cpp_textured_material, {{"CASES", textured_materials}})
                                : std::string())};

@@ -18,6 +18,7 @@
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
 #include "candela/target_plugin.h"
+#include "layers.h"
 #include "literals.h"
 #include "shadows.h"
 #include "textures.h"
@@ -89,7 +90,7 @@ class OpenGlWriter {
             {"SET_COMMON", set_common()},
             {"PICTURE_FILE", std::string(image_file_source())}};
         const Values shadows = shadow_values(scene_);
-        for (const Values& more : {about, texture_values(scene_, glsl), shadows})
+        for (const Values& more : {about, texture_values(scene_, glsl), shadows, layer_values(scene_)})
             values.insert(values.end(), more.begin(), more.end());
         write(files, "scene.cpp", filled(candela_opengl_scene, views_of(values)));
         values.emplace_back("ARRAYS", arrays_);
@@ -240,7 +241,10 @@ class OpenGlWriter {
     /// The keys of every material; empty in a scene without it.
     std::string common_members() const {
         return std::string(has_emission(scene_) ? "    vec3 emission;\n" : "") +
-               (has_occlusion(scene_) ? "    float occlusion;  // of ambient light\n" : "");
+               (has_occlusion(scene_) ? "    float occlusion;  // of ambient light\n" : "") +
+               (has_opacity(scene_)
+                    ? "    float opacity, opacity_cutoff;  // with one above 0, opaque or absent\n"
+                    : "");
     }
     std::string set_common() const {
         return std::string(has_emission(scene_) ? "            set(program, {\"object_emission\", "
@@ -252,7 +256,10 @@ class OpenGlWriter {
     }
     std::string common_values(const ExportedObject& object) const {
         return (has_emission(scene_) ? braces(emission_of(object, encoding_)) + ", " : "") +
-               (has_occlusion(scene_) ? float_text(object.occlusion) + ", " : "");
+               (has_occlusion(scene_) ? float_text(object.occlusion) + ", " : "") +
+               (has_opacity(scene_)
+                    ? fmt::format("{}, {}, ", float_text(object.opacity), float_text(object.opacity_cutoff))
+                    : "");
     }
 
     std::string object_text(std::size_t index) {
@@ -317,6 +324,7 @@ class OpenGlTarget final : public Target {
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,
+                .opacity = true,
                 .shadows = true,
                 .display = true};
     }

@@ -41,12 +41,13 @@ constexpr const char* k_members =
     "    int material;                                        // in k_materials; -1: no textures\n"
     "    int common_material;                                 // with another reflection model\n"
     "    int normal_map;                                      // in k_normal_maps; -1: none\n"
+    "    int opacity_map;                                     // in k_opacities; -1: none\n"
     "    std::vector<std::pair<std::size_t, bool>> pictures;  // of these, and whether they repeat\n";
 
 constexpr const char* k_bind =
     "            set_pixel(program, observer, view, height);\n"
     "            const bool reads_pictures = (reflection == object.reflection ? object.material : "
-    "object.common_material) >= 0 || object.normal_map >= 0;\n"
+    "object.common_material) >= 0 || object.normal_map >= 0 || object.opacity_map >= 0;\n"
     "            // Even a sampler that is not read must refer to a texture of its type.\n"
     "            for (std::size_t k = 0; k < {} && reads_pictures; ++k) {{\n"
     "                const auto [texture, repeats] = object.pictures[k < object.pictures.size() ? k : 0];\n"
@@ -79,7 +80,8 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
     return {
         {"TEXTURE_SHADER", if_textures(fmt::format("const std::string k_texture = {};\n", raw(glsl.texture)) +
                                        texts_of("k_materials", {&glsl.materials, &glsl.common_materials}) +
-                                       texts_of("k_normal_maps", {&glsl.normal_maps}))},
+                                       texts_of("k_normal_maps", {&glsl.normal_maps}) +
+                                       texts_of("k_opacities", {&glsl.opacities}))},
         {"TEXTURE_MEMBERS", if_textures(k_members)},
         {"TEXTURES", has_textures ? declarations_of(scene) : ""},
         {"PUT_TEXTURE", if_textures(corners + k_put_edges)},
@@ -90,15 +92,18 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
         {"MATERIAL_OF",
          if_textures("        const int material = reflection == object.reflection ? object.material : "
                      "object.common_material;\n")},
-        {"IS_TEXTURED", if_textures(", material, object.normal_map")},
-        {"TEXTURE_TEXT", if_textures(" (material < 0 && object.normal_map < 0 ? \"\" : k_texture) +\n"
-                                     "                                   (material < 0 ? \"\" : \"#define "
-                                     "TEXTURED_MATERIAL\\n\") +")},
+        {"IS_TEXTURED", if_textures(", material, object.normal_map, object.opacity_map")},
+        {"TEXTURE_TEXT",
+         if_textures(" (material < 0 && object.normal_map < 0 && object.opacity_map < 0 ? \"\" : k_texture) +\n"
+                     "                                   (material < 0 ? \"\" : \"#define "
+                     "TEXTURED_MATERIAL\\n\") +")},
         {"MATERIAL_TEXT",
          if_textures(" + (material < 0 ? \"\" : k_materials[static_cast<std::size_t>(material)]) +\n"
                      "                                   (object.normal_map < 0 ? \"\" : "
-                     "k_normal_maps[static_cast<std::size_t>(object.normal_map)])")},
-        {"TEXTURED_KEY", if_textures(", int, int")},
+                     "k_normal_maps[static_cast<std::size_t>(object.normal_map)]) +\n"
+                     "                                   (object.opacity_map < 0 ? \"\" : "
+                     "k_opacities[static_cast<std::size_t>(object.opacity_map)])")},
+        {"TEXTURED_KEY", if_textures(", int, int, int")},
         {"TEXTURES_HELD", if_textures("    std::vector<Texture> textures_;\n")}};
 }
 
@@ -107,6 +112,7 @@ std::string texture_members(const ExportedScene& scene, std::size_t index) {
     const ExportedObject& object = scene.objects[index];
     const auto is_textured = [](const ExportedObject& o) { return !all_textured_numbers(o).empty(); };
     const auto is_mapped = [](const ExportedObject& o) { return o.normal_map != nullptr; };
+    const auto is_covering = [](const ExportedObject& o) { return !o.opacity_numbers.empty(); };
     const auto number = [&](const auto& is_one) {
         return is_one(object) ? std::ranges::count_if(scene.objects.first(index), is_one) : -1;
     };
@@ -115,9 +121,9 @@ std::string texture_members(const ExportedScene& scene, std::size_t index) {
         pictures +=
             fmt::format("{}{{{}, {}}}", pictures.empty() ? "" : ", ", picture.texture, picture.repeats);
     const auto own_texts = std::ranges::count_if(scene.objects, is_textured);
-    return fmt::format(", {}, {}, {}, {{{}}}", number(is_textured),
+    return fmt::format(", {}, {}, {}, {}, {{{}}}", number(is_textured),
                        has_common_textures(object) ? own_texts + number(has_common_textures) : -1,
-                       number(is_mapped), pictures);
+                       number(is_mapped), number(is_covering), pictures);
 }
 
 }  // namespace candela::opengl_target

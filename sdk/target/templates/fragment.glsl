@@ -15,6 +15,7 @@ INTENSITY_RATE in vec3 back;
 
 @DEPTH_UNIFORM@
 @SHADOW_PLACE@
+@LAYER_UNIFORMS@
 
 layout(location = 0) out vec4 intensity;
 
@@ -34,4 +35,5 @@ void main() {
 #else
     intensity = vec4(gl_FrontFacing ? front : back, 1.0);
 #endif
+@COVER@
 }

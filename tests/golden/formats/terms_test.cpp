@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <catch2/catch_approx.hpp>
 #include <catch2/catch_test_macros.hpp>
+#include <catch2/generators/catch_generators.hpp>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include <memory>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/command.h"
@@ -231,12 +233,16 @@ TEST_CASE("terms add up to the picture, and so do lights, surroundings and backg
     }
 }
 
-TEST_CASE("what surfaces emit is a term of its own, which no light has") {
+TEST_CASE("what surfaces emit is a term of its own, which no light has, also where they cover only a part") {
     std::string scene = k_many;
     scene +=
         "\n[[object]]\nname = \"lamp\"\ntype = \"sphere\"\nradius = 0.4\nposition = [0, 0.6, 1.5]\n"
         "shading = \"phong\"\nreflection = \"lambert\"\n[object.material]\nemission = [51, 102, "
         "255]\nemission_strength = 3\n";
+    // Seen through both sides of the ball, three quarters of it.
+    const auto [opacity, share] =
+        GENERATE(std::pair{"opacity = 1\n", 1.0}, std::pair{"opacity = 0.5\n", 0.75});
+    scene += opacity;
     const Layers layers = render_layers(scratch_directory(), scene,
                                         "ambient,diffuse,specular,light,surroundings,background,emission");
     const std::vector<std::string> terms{"ambient", "diffuse", "specular", "background", "emission"};
@@ -253,7 +259,7 @@ TEST_CASE("what surfaces emit is a term of its own, which no light has") {
             emitted = std::max(emitted, double{layers.at("emission.G", x, y)});
         }
     }
-    CHECK(emitted == Approx(3 * std::pow((102 / 255.0 + 0.055) / 1.055, 2.4)).epsilon(1e-5));
+    CHECK(emitted == Approx(share * 3 * std::pow((102 / 255.0 + 0.055) / 1.055, 2.4)).epsilon(1e-5));
 }
 
 TEST_CASE("geometric terms are those at the centre of each pixel, whatever the number of samples") {

@@ -75,6 +75,7 @@ struct Mesh {
     vec3 position, rotation;  // degrees about x, then y, then z
     vec3 scale = vec3(1.0f);
 @OBJECT_MEMBERS@
+@OPACITY_MEMBERS@
 @SHADOW_MEMBERS@
     std::vector<vec3> vertex_normal, face_normal;
 };
@@ -159,7 +160,7 @@ Homogeneous projected(vec3 p, double& depth) {
 
 // Draws a triangle by solving, at each pixel, for the weights b that make b0 c0 + b1 c1 + b2 c2 the pixel's direction; all
 // three are positive within the triangle, and their sum is 1 / w. No clipping is needed (Olano, Greer 1997).
-void draw_triangle(const Object& o, int object, int triangle, vec2 offset, double near, std::vector<Seen>& picture) {
+@BEHIND_FUNCTION@void draw_triangle(const Object& o, int object, int triangle, vec2 offset, double near@BEHIND_PARAMETER@, std::vector<Seen>& picture) {
     std::array<Homogeneous, 3> c;
     std::array<double, 3> depth{};
     double left = 0, right = k_width, top = 0, bottom = k_height;
@@ -187,6 +188,7 @@ void draw_triangle(const Object& o, int object, int triangle, vec2 offset, doubl
             const double distance = (b0 * depth[0] + b1 * depth[1] + b2 * depth[2]) / sum;
             Seen& seen = picture[static_cast<std::size_t>(y) * k_width + static_cast<std::size_t>(x)];
             if (distance < near || -distance <= seen.nearness) continue;
+@SKIP_BEFORE@
             const vec3 weights(static_cast<float>(b0 / sum), static_cast<float>(b1 / sum), static_cast<float>(b2 / sum));
             seen = {-distance, object, triangle, weights, area > 0};
         }
@@ -229,6 +231,7 @@ T blend(const std::vector<T>& values, const Mesh& mesh, int triangle, vec3 b) {
 
 @TRIANGLE_OF@
 @TEXTURE_SEEN@
+@OPACITY@
 vec3 intensity_within(const Object& o, int triangle, vec3 b, bool is_back@PIXEL_PARAMETER@) {
     const Mesh& m = o.mesh;
     ShadingPoint p;
@@ -277,16 +280,7 @@ std::vector<vec3> render(const std::vector<Object>& objects) {
 @SHADOW_TREE@
     std::vector<vec3> picture(static_cast<std::size_t>(k_width) * k_height);
     for (const vec2& sample : k_samples) {
-        std::vector<Seen> seen(picture.size());
-        for (std::size_t o = 0; o < objects.size(); ++o) {
-            for (std::size_t t = 0; t < objects[o].face_normal.size(); ++t)
-                draw_triangle(objects[o], static_cast<int>(o), static_cast<int>(t), sample, near, seen);
-        }
-        for (std::size_t i = 0; i < picture.size(); ++i) {
-            const vec3 intensity = seen[i].object < 0 ? k_background : intensity_seen(objects[static_cast<std::size_t>(seen[i].object)], seen[i]@THIS_PIXEL@);
-            picture[i] += intensity / static_cast<float>(k_samples.size());
-        }
-    }
+@DRAW_SAMPLE@    }
     return picture;
 }
 

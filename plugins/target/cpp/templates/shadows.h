@@ -5,12 +5,14 @@ using Double3 = std::array<double, 3>;
 
 const float k_infinitely_far = HUGE_VALF;
 
+@CROSSING_STRUCT@
 struct ShadowRay {
     Double3 origin, direction;
     double length;         // in multiples of the direction; infinite if the light is infinitely far away
     const Object* object;  // on whose surface it starts
     bool starts_below;     // the triangle that it starts on faces away from the light, although the shading normal does not
     bool starts_behind;    // it starts on the inner side of the triangle
+@CROSSINGS_MEMBER@
 };
 
 struct Box {
@@ -20,6 +22,7 @@ struct Box {
 struct Blocker {  // a triangle that casts a shadow
     std::array<Double3, 3> corners;
     const Object* object;
+@BLOCKER_TRIANGLE@
 };
 
 Double3 double3(vec3 v) { return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}; }
@@ -61,7 +64,8 @@ bool blocks(const Blocker& blocker, const ShadowRay& ray) {
     if (blocker.object->is_solid) return enters;
     // Light that leaves the surface on which it is looked for may pass, so that smooth shading has no jagged edge where the
     // triangles turn away from the light.
-    return blocker.object != ray.object || !ray.starts_below || enters != ray.starts_behind;
+    @BLOCKS@blocker.object != ray.object || !ray.starts_below || enters != ray.starts_behind;
+@LET_PASS@
 }
 
 // All triangles that cast shadows in a bounding-volume hierarchy, a tree of boxes: a ray that misses a box misses everything in
@@ -72,7 +76,7 @@ class ShadowTree {
         for (const Object& o : objects) {
             for (std::size_t c = 0; o.casts_shadows && c < o.mesh.corners.size(); c += 3) {
                 const auto at = [&](std::size_t k) { return o.mesh.position[static_cast<std::size_t>(o.mesh.corners[c + k])]; };
-                blockers_.push_back({{double3(at(0)), double3(at(1)), double3(at(2))}, &o});
+                blockers_.push_back({{double3(at(0)), double3(at(1)), double3(at(2))}, &o@TRIANGLE_NUMBER@});
                 for (const vec3 edge : {at(1) - at(0), at(2) - at(0)}) {
                     const float size = std::max({std::fabs(edge.x), std::fabs(edge.y), std::fabs(edge.z)});
                     if (!o.is_solid) largest_ = std::max(largest_, size);
@@ -167,7 +171,8 @@ vec3 inward(const ShadowPlace& at) {
     return to_middle - dot(at.face_normal, to_middle) * at.face_normal;
 }
 
-// The fraction of the light from a direction that reaches a place: 0 or 1.
+@PASSING@
+// The fraction of the light from a direction that reaches a place@ZERO_OR_ONE@.
 float unblocked(const ShadowPlace& at, vec3 to_light, float distance) {
     const bool reflects = @REFLECTS@;
     if (!at.object.receives_shadows || !reflects) return 1.0f;
@@ -180,5 +185,6 @@ float unblocked(const ShadowPlace& at, vec3 to_light, float distance) {
     vec3 shift = (is_below ? -margin : margin) * (2.0f * at.face_normal - to_light);
     // In the edge of a room, that is behind the adjacent wall; so rays also start further inside their triangle.
     if (at.triangle >= 0 && !at.object.is_solid) shift += 4.0f * margin * inward(at);
-    return at.tree.is_blocked({double3(at.position + shift), double3(to_light - shift / distance), static_cast<double>(length), &at.object, is_below, at.is_back}) ? 0.0f : 1.0f;
+@CROSSINGS@
+    return at.tree.is_blocked({double3(at.position + shift), double3(to_light - shift / distance), static_cast<double>(length), &at.object, is_below, at.is_back@CROSSINGS_ARGUMENT@}) ? 0.0f : @IF_FREE@;
 }

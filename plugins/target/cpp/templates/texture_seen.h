@@ -8,11 +8,11 @@ struct TexturePlace {
     float pixel = 0;    // its size, metres
 };
 
-TexturePlace place_within(const Object& o, int triangle, vec3 b) {
+TexturePlace place_within(const Object& o, int triangle, vec3 b@IS_SEEN_PARAMETER@) {
     const Mesh& m = o.mesh;
     TexturePlace at;
     at.uv = blend(m.uv, m, triangle, b);
-    at.is_pixel = rate_of(o) == Rate::pixel;
+    at.is_pixel = @IS_SEEN@rate_of(o) == Rate::pixel;
     if (!at.is_pixel) return at;
     const int* const v = &m.corners[3 * static_cast<std::size_t>(triangle)];
     const auto p = [&](int k) { return m.position[static_cast<std::size_t>(v[k])]; };

@@ -1,5 +1,3 @@
-float number_of(float texel, float scale, float offset, float low, float high) { return std::min(std::max(offset + scale * texel, low), high); }
-
 // The material of an object at a place: textures give some of its numbers.
 Material material_at(const Object& o, const TexturePlace& at) {
     Material own = o;

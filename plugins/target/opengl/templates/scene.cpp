@@ -339,6 +339,7 @@ Canvas make_canvas(int width, int height, GLint format, bool has_depth) {
     return canvas;
 }
 
+@LAYER_CANVAS@
 // Models for all objects; -1: each object's own.
 struct Choice {
     int shading = -1, reflection = -1;
@@ -351,6 +352,7 @@ class Renderer {
         glGenVertexArrays(1, &nothing_);
         accumulate_ = linked(k_header + k_screen, k_header + k_accumulate);
         encode_ = linked(k_header + k_screen, k_header + k_encode);
+@LINK_LAYERS@
         glActiveTexture(GL_TEXTURE2);  // passes over the screen use the first two
         light_table();
 @BIND_TABLES@
@@ -390,13 +392,12 @@ class Renderer {
         }
         picture_ = make_canvas(width, height, GL_RGBA32F, true);
         for (Canvas& sum : sums_) sum = make_canvas(width, height, GL_RGBA32F, false);
+@RESIZE_LAYERS@
         width_ = width;
         height_ = height;
     }
 
-    void draw_sample(const Observer& observer, const View& view, Choice choice, int width, int height, std::array<float, 2> sample) {
-        glBindFramebuffer(GL_FRAMEBUFFER, picture_.framebuffer);
-        glClearColor(k_background[0], k_background[1], k_background[2], 1);
+@DRAW_SAMPLE@
         glClearDepth(0);
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glEnable(GL_DEPTH_TEST);
@@ -417,6 +418,7 @@ class Renderer {
             set(program, {"towards_observer", Uniform::vector, -1.0f * view.forward});
             set(program, {"object_color", Uniform::vector, object.color});
 @SET_COMMON@
+@SET_LAYER@
             for (const Uniform& u : object.materials[reflection]) set(program, u, "material.");
             for (const Uniform& u : object.shadings[shading]) set(program, u, "shading.");
 @BIND_TEXTURE@
@@ -467,6 +469,7 @@ class Renderer {
     }
 
     GLuint nothing_ = 0, accumulate_ = 0, encode_ = 0;
+@LAYERS_HELD@
     int width_ = 0, height_ = 0;
     Canvas picture_;
     std::array<Canvas, 2> sums_;

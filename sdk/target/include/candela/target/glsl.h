@@ -20,6 +20,12 @@ namespace candela::target {
 ///
 /// In a scene with emission, shaders read an object's emission_of() from `object_emission`; in one with
 /// occlusion, ExportedObject::occlusion from `object_occlusion`.
+///
+/// In a scene with opacity, a fragment shader draws one layer of depth peeling: surfaces behind the depths in
+/// `depth_before`, unless `is_first_layer`, where the fourth number of `covered` is below 1. It writes
+/// intensity and 1, both times the opacity, which is `object_opacity`, with `object_opacity_cutoff`, or what
+/// the object's text of `opacities`, after those before, reads from a texture where light is evaluated for
+/// each fragment.
 struct GlslParts {
     std::string prelude;
     std::string texture;  // empty unless an object of the scene has one
@@ -28,6 +34,7 @@ struct GlslParts {
     std::vector<std::string> materials;              // of objects; empty unless textures give numbers of it
     std::vector<std::string> normal_maps;            // of objects; empty unless a picture tilts its normals
     std::vector<std::string> common_materials;       // the part that any reflection model has
+    std::vector<std::string> opacities;              // of objects; empty unless a texture gives their opacity
     std::string vertex, fragment;
     std::string screen, accumulate, encode;
 };

@@ -45,8 +45,13 @@ Rgb emission_of(const ExportedObject& object, ColorEncoding encoding);
 /// Whether an object of the scene emits light, or reflects less ambient light than its model says.
 bool has_emission(const ExportedScene& scene);
 bool has_occlusion(const ExportedScene& scene);
+/// Whether something may be seen through an object of the scene.
+bool has_opacity(const ExportedScene& scene);
+/// Whether a texture gives the opacity of one.
+bool has_textured_opacity(const ExportedScene& scene);
 
-/// The numbers of an object that textures give: of its own material, its colour, emission and occlusion.
+/// The numbers of an object that textures give: of its own material, its colour, emission and occlusion; not
+/// its opacity, which is found elsewhere.
 std::vector<ExportedTexturedNumber> all_textured_numbers(const ExportedObject& object);
 /// Whether textures give the object's colour, emission or occlusion, which it has with any reflection model.
 bool has_common_textures(const ExportedObject& object);
@@ -70,6 +75,9 @@ struct MaterialNames {
 MaterialStatements material_statements(
     const ExportedScene& scene, const ExportedObject& object, const MaterialNames& names,
     const std::function<std::string(const ExportedTexturedNumber&)>& lookup);
+
+/// The value of a number whose texel is `texel`, by a function number_of().
+std::string number_text(const ExportedTexturedNumber& number, const std::string& texel);
 
 /// Texture look-ups in the kernel language: the exact footprint, bilinear, trilinear. A program that uses it
 /// must declare, before it, a struct ColorTexture with a member `repeats`, and color_texture_levels(),
