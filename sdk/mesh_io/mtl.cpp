@@ -56,6 +56,7 @@ class MaterialReader {
                 current = &library_.materials[number];
                 *current = {};
                 current->name = std::move(name);
+                has_d_ = false;
             } else if (current != nullptr) {
                 statement(lower(s.keyword), s.rest, *current);
             }
@@ -82,6 +83,10 @@ class MaterialReader {
             to.emission_map = texture(rest);
             return;
         }
+        if (keyword == "map_d") {
+            to.opacity_map = texture(rest);
+            return;
+        }
         if (keyword == "map_pr" || keyword == "map_pm") {
             (keyword == "map_pr" ? to.roughness_map : to.metallic_map) = texture(rest);
             return;
@@ -97,14 +102,13 @@ class MaterialReader {
         } else if (keyword == "illum") {
             to.illumination = static_cast<int>(std::clamp(first, 0.0, 10.0));
         } else if (keyword == "d" || keyword == "tr") {
-            if (numbers.empty() || first != (keyword == "d" ? 1 : 0))
-                note("the opacity of materials is left out; they are opaque");
+            opacity(keyword == "d", numbers, to);
         } else if (keyword.starts_with("map_") || keyword == "disp" || keyword == "decal" ||
                    keyword == "refl") {
-            note(
-                fmt::format("textures other than those of colour, emission, roughness, metalness and normals "
-                            "are left out, such as '{}'",
-                            keyword));
+            note(fmt::format(
+                "textures other than those of colour, emission, opacity, roughness, metalness and "
+                "normals are left out, such as '{}'",
+                keyword));
         } else if (std::optional<double>* const value = physical(keyword, to)) {
             if (!numbers.empty()) *value = first;
         } else if (keyword == "tf") {
@@ -112,6 +116,15 @@ class MaterialReader {
             if (!are_all(numbers, 1)) note("the transmission of materials is left out");
         }
         // Ni, the index of refraction, matters only with opacity; sharpness only for reflections.
+    }
+
+    /// `d` is the opacity, `Tr` one minus that; where they differ, `d` counts. `d -halo` depends on the
+    /// angle.
+    void opacity(bool is_d, const std::vector<double>& numbers, MtlMaterial& to) {
+        if (numbers.empty()) return note("an opacity that depends on the angle is left out");
+        if (!is_d && has_d_) return;
+        has_d_ = has_d_ || is_d;
+        to.opacity = std::clamp(is_d ? numbers[0] : 1 - numbers[0], 0.0, 1.0);
     }
 
     /// The value of a keyword of Clara.io's extension for physically based materials.
@@ -172,6 +185,7 @@ class MaterialReader {
     }
 
     MaterialLibrary library_;
+    bool has_d_ = false;  // the current material
     MaterialNumbers numbers_;
 };
 

@@ -25,6 +25,8 @@ struct MtlMaterial {
     std::vector<double> ka, kd, ks;  // three numbers; empty if absent
     std::vector<double> ke;          // the same
     MtlMap emission_map{};           // map_Ke
+    double opacity = 1;              // d, or 1 - Tr
+    MtlMap opacity_map{};            // map_d
     double shininess = 0;            // Ns
     int illumination = 2;            // illum
     MtlMap color_map{};              // map_Kd

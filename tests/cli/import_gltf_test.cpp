@@ -153,7 +153,8 @@ TEST_CASE("a material with a mask is cut out along its texture's opacity") {
     file.material()["alphaMode"] = "MASK";
     file.pbr() = {{"metallicFactor", 0}, {"baseColorTexture", file.texture(png(8, 8, pixels))}};
     const Imported imported = import(file);
-    CHECK(holds(imported.scene, "cutout              = \"a_textures/texture0_opacity_0.pgm\"\n"));
+    CHECK(holds(imported.scene,
+                "= { texture = \"a_textures/texture0.png\", channel = \"a\" }\nopacity_cutoff = 0.5\n"));
     CHECK_FALSE(holds(imported.result.err, "opacity"));
     const Pixel background = imported.at(0, 0);
     CHECK(imported.middle()[1] > imported.middle()[0] + 50);
@@ -167,30 +168,44 @@ TEST_CASE("a material with a mask is cut out along its texture's opacity") {
     CHECK(greenish > 300);
     CHECK(others < greenish / 10);
 
-    SECTION(
-        "a surface that is opaque everywhere stays whole, and so does a blended one that is hardly ever "
-        "opaque") {
+    SECTION("a surface that is opaque everywhere has no opacity") {
         file.material()["alphaCutoff"] = 0.0;
-        CHECK_FALSE(holds(import(file).scene, "cutout"));
-        File glass;
-        glass.material()["alphaMode"] = "BLEND";
-        glass.pbr() = {{"metallicFactor", 0},
-                       {"baseColorTexture", glass.texture(plain_png({255, 255, 255, 90}))}};
-        const Imported whole = import(glass);
-        CHECK_FALSE(holds(whole.scene, "cutout"));
-        CHECK(holds(whole.result.err, "the opacity of a material is left out"));
+        CHECK_FALSE(holds(import(file).scene, "opacity"));
+        file.material().erase("alphaMode");
+        CHECK_FALSE(holds(import(file).scene, "opacity"));
+        File whole;
+        whole.material()["alphaMode"] = "BLEND";
+        whole.pbr() = {{"metallicFactor", 0}, {"baseColorTexture", whole.texture(plain_png({9, 9, 9, 255}))}};
+        CHECK_FALSE(holds(import(whole).scene, "opacity"));
     }
-    SECTION("a printed scene has no place for the outline") {
+    SECTION("the factor of the colour multiplies the texture's opacity") {
+        file.material()["alphaCutoff"] = 0.25;
+        file.pbr()["baseColorFactor"] = {1, 1, 1, 0.5};
+        CHECK(holds(import(file).scene, "channel = \"a\", scale = 0.5 }\nopacity_cutoff = 0.25\n"));
+    }
+    SECTION("a mask that nothing reaches leaves nothing") {
+        file.material()["alphaCutoff"] = 1.5;
+        file.pbr() = {{"metallicFactor", 0}};
         const Folder folder;
-        File external = file;
-        folder.write("leaf.png", png(8, 8, pixels));
-        external.json["images"] = {{{"uri", "leaf.png"}}};
-        folder.write("a.glb", external.glb());
-        const CommandResult printed =
-            expect(folder.run("import a.glb -o -"), 0,
-                   {"transparent parts are not cut out: that needs a file next to the scene"});
-        CHECK_FALSE(holds(printed.out, "cutout"));
+        folder.write("a.glb", file.glb());
+        const CommandResult printed = folder.run("import a.glb -o -");
+        INFO(printed.err);
+        CHECK(holds(printed.out, "= 0.0\nopacity_cutoff = 1.0\n"));
     }
+}
+
+TEST_CASE("a material that is blended covers what is behind it by its opacity") {
+    File glass;
+    glass.material()["alphaMode"] = "BLEND";
+    glass.pbr() = {{"metallicFactor", 0}, {"baseColorFactor", {1, 0, 0, 0.25}}};
+    const Imported quarter = import(glass);
+    CHECK(holds(quarter.scene, "opacity   = 0.25\n"));
+    CHECK_FALSE(holds(quarter.result.err, "opacity"));
+    const Pixel background = quarter.at(0, 0), middle = quarter.middle();
+    CHECK(middle[2] < background[2]);
+    CHECK(middle[2] > background[2] / 2);
+    glass.pbr()["baseColorTexture"] = glass.texture(plain_png({255, 255, 255, 51}));
+    CHECK(holds(import(glass).scene, "opacity   = 0.05\n"));
 }
 
 TEST_CASE("a file with a light of its own gets a little ambient light") {

@@ -123,9 +123,25 @@ TEST_CASE(
     CHECK(b.color_map.clamps);
     CHECK(b.color_map.scale == std::array<double, 2>{1, 2});
     CHECK(b.color_map.offset == std::array<double, 2>{-0.5, 0});
-    CHECK(library.notes == std::vector<std::string>{"material colours that are not numbers are left out",
-                                                    "the opacity of materials is left out; they are opaque"});
+    CHECK(library.notes == std::vector<std::string>{"material colours that are not numbers are left out"});
+    CHECK(a.opacity == 0.5);
+    CHECK(b.opacity == 1);
     CHECK_THROWS_AS(mesh_io::read_mtl("\xff\xfen"), mesh_io::BadFile);
+}
+
+TEST_CASE("mesh_io: an MTL file's opacity is d, or 1 - Tr without it") {
+    const mesh_io::MaterialLibrary library = mesh_io::read_mtl(
+        "newmtl a\nTr 0.25\nnewmtl b\nTr 1\nd 0.5\nmap_d -clamp on leaf.png\nnewmtl c\nd 0.5\nTr 0\n"
+        "newmtl d\nd 7\nnewmtl e\nd -halo 0.5\n");
+    REQUIRE(library.materials.size() == 5);
+    CHECK(library.materials[0].opacity == 0.75);
+    CHECK(library.materials[1].opacity == 0.5);
+    CHECK(library.materials[1].opacity_map.file == "leaf.png");
+    CHECK(library.materials[1].opacity_map.clamps);
+    CHECK(library.materials[2].opacity == 0.5);
+    CHECK(library.materials[3].opacity == 1);
+    CHECK(library.materials[4].opacity == 1);
+    CHECK(library.notes == std::vector<std::string>{"an opacity that depends on the angle is left out"});
 }
 
 TEST_CASE("mesh_io: an MTL file's physically based values are there if the file has them") {

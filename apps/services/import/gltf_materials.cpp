@@ -63,8 +63,8 @@ Material Materials::unlit(const Json& from, const std::string& name) {
     const Json& pbr = object_of(from, "pbrMetallicRoughness");
     const std::vector<double> base = factor_of(pbr, "baseColorFactor", 4);
     Material result{.name = {}, .reflection = "unlit", .color = encoded(base)};
-    auto* const image = textures_.show(pbr, "baseColorTexture", name, base, result);
-    textures_.cut_out(from, base[3], image, result);
+    textures_.show(pbr, "baseColorTexture", name, base, result);
+    add_opacity(from, pbr, "baseColorTexture", base[3], name, result);
     return result;
 }
 
@@ -74,7 +74,7 @@ Material Materials::metallic_roughness(const Json& from, const std::string& name
     const double metallic = std::clamp(number(pbr, "metallicFactor", 1), 0.0, 1.0);
     const double roughness = std::clamp(number(pbr, "roughnessFactor", 1), 0.0, 1.0);
     Material result{.name = {}, .reflection = "metallic-roughness", .color = encoded(base)};
-    auto* const image = textures_.show(pbr, "baseColorTexture", name, base, result);
+    textures_.show(pbr, "baseColorTexture", name, base, result);
     const auto map = textures_.texture(pbr, "metallicRoughnessTexture", name);
     const Json& extensions = object_of(from, "extensions");
     // Metals mirror surroundings, which a scene does not have: ambient light stands for half of them.
@@ -86,7 +86,7 @@ Material Materials::metallic_roughness(const Json& from, const std::string& name
     textures_.tilt_normals(from, name, result);
     add_emission(from, name, result);
     add_occlusion(from, name, result);
-    textures_.cut_out(from, base[3], image, result);
+    add_opacity(from, pbr, "baseColorTexture", base[3], name, result);
     note_losses(from);
     return result;
 }
@@ -96,7 +96,7 @@ Material Materials::specular_glossiness(const Json& from, const Json& extension,
     const std::vector<double> specular = factor_of(extension, "specularFactor", 3);
     const double glossiness = std::clamp(number(extension, "glossinessFactor", 1), 0.0, 1.0);
     Material result{.name = {}, .reflection = "specular-glossiness", .color = encoded(base)};
-    auto* const image = textures_.show(extension, "diffuseTexture", name, base, result);
+    textures_.show(extension, "diffuseTexture", name, base, result);
     const auto map = textures_.texture(extension, "specularGlossinessTexture", name);
     std::vector<double> mean = specular;
     for (std::size_t k = 0; k < 3 && map; ++k) mean[k] *= map->image->means.linear[k];
@@ -107,7 +107,7 @@ Material Materials::specular_glossiness(const Json& from, const Json& extension,
     textures_.tilt_normals(from, name, result);
     add_emission(from, name, result);
     add_occlusion(from, name, result);
-    textures_.cut_out(from, base[3], image, result);
+    add_opacity(from, extension, "diffuseTexture", base[3], name, result);
     note_losses(from);
     return result;
 }
@@ -206,6 +206,22 @@ void Materials::add_occlusion(const Json& from, const std::string& name, Materia
     if (strength == 0) return;
     if (const auto map = textures_.texture(from, "occlusionTexture", name))
         add(map, Channel::red, "occlusion", {strength}, {1 - strength}, to);
+}
+
+void Materials::add_opacity(const Json& from, const Json& colors, const char* texture, double factor,
+                            const std::string& name, Material& to) {
+    const std::string mode = text_of(from, "alphaMode");
+    if (mode != "MASK" && mode != "BLEND") return;
+    const double cutoff = mode == "MASK" ? number(from, "alphaCutoff", 0.5) : 0;
+    if (mode == "MASK" && cutoff <= 0) return;  // it is there everywhere
+    // Nothing reaches a cutoff above 1.
+    const double scale = cutoff > 1 ? 0 : std::clamp(factor, 0.0, 1.0);
+    // Where the colour has no texture, that has been noted.
+    const auto map = to.color_map ? textures_.texture(colors, texture, name) : std::nullopt;
+    const bool is_opaque = !map || (map->image->means.is_opacity_equal && map->image->means.opacity == 1);
+    if (is_opaque && (mode == "MASK" ? scale >= cutoff : scale == 1)) return;
+    add(map, Channel::alpha, "opacity", {scale}, {0}, to);
+    if (mode == "MASK") importing::gltf::add(to, "opacity_cutoff", {std::min(cutoff, 1.0)});
 }
 
 double Materials::direction_in(const Textures::Placed& map) {

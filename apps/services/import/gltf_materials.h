@@ -33,6 +33,9 @@ class Materials {
     void add_extensions(const Json& extensions, const std::string& name, Material& to);
     /// The parts of a material that do not depend on how it reflects.
     void add_emission(const Json& from, const std::string& name, Material& to);
+    /// `colors`: the part of the material that has the texture of its colour, whose alpha counts.
+    void add_opacity(const Json& from, const Json& colors, const char* texture, double factor,
+                     const std::string& name, Material& to);
     void add_occlusion(const Json& from, const std::string& name, Material& to);
     /// The mean angle in the texture of KHR_materials_anisotropy, in radians.
     double direction_in(const Textures::Placed& map);

@@ -44,6 +44,8 @@ const char* name_of(Channel channel) {
             return "g";
         case Channel::blue:
             return "b";
+        case Channel::alpha:
+            return "a";
         case Channel::rgb:
             return "";
         default:
@@ -76,17 +78,16 @@ std::optional<Textures::Placed> Textures::texture(const Json& from, const char* 
                   .placing = transform != nullptr ? placing_of(*transform) : Placing{}};
 }
 
-Textures::MeasuredImage* Textures::show(const Json& from, const char* name, const std::string& material,
-                                        std::vector<double> factor, Material& to) {
+void Textures::show(const Json& from, const char* name, const std::string& material,
+                    std::vector<double> factor, Material& to) {
     const auto placed = texture(from, name, material);
-    if (!placed) return nullptr;
+    if (!placed) return;
     factor.resize(3);
     to.color_map = ParameterMap{.parameter = "color",
                                 .image = index_of_image(*placed->image),
                                 .scale = shortened(std::move(factor)),
                                 .clamps = placed->clamps,
                                 .placing = placed->placing};
-    return placed->image;
 }
 
 std::vector<double> Textures::map(const Placed& picture, Channel channel, const char* parameter,
@@ -110,7 +111,7 @@ std::vector<double> Textures::map(const Placed& picture, Channel channel, const 
     }
     if (!is_constant)
         to.maps.push_back({.parameter = parameter,
-                           .image = channel == Channel::alpha ? index_of_alpha(image) : index_of_image(image),
+                           .image = index_of_image(image),
                            .channel = name_of(channel),
                            .scale = shortened(std::move(scale)),
                            .offset = shortened(std::move(offset)),
@@ -152,46 +153,6 @@ std::size_t Textures::index_of_image(MeasuredImage& image) {
     return *image.index;
 }
 
-std::size_t Textures::index_of_alpha(MeasuredImage& image) {
-    if (!image.alpha) {
-        image.alpha = model_.images.size();
-        model_.images.push_back(
-            {.file = fmt::format("{}_alpha_{}.ppm", image.file.file.stem().string(), *image.alpha),
-             .content = opacity_ppm(read_image(image.file, registry_).pixels)});
-    }
-    return *image.alpha;
-}
-
-void Textures::cut_out(const Json& material, double factor, MeasuredImage* image, Material& to) {
-    const std::string mode = text_of(material, "alphaMode");
-    if (mode != "MASK" && mode != "BLEND") return;
-    const double level =
-        mode == "BLEND" ? 0.5 : number(material, "alphaCutoff", 0.5) / std::max(factor, 1e-3);
-    const bool is_opaque = factor >= 1 && (image == nullptr || image->opacity.bytes.empty());
-    if (is_opaque || (mode == "MASK" && level <= 0)) return;
-    const bool is_placed = to.color_map && to.color_map->placing != Placing{};
-    const bool is_wanted = image != nullptr && !is_placed && level <= 1 && image->opacity.is_cut_by(level) &&
-                           (mode == "MASK" || (factor > level && image->opacity.is_clear_cut));
-    if (is_wanted) {
-        if (!image->cutout) {
-            image->cutout = model_.cutouts.size();
-            model_.cutouts.push_back(
-                {fmt::format("{}_opacity_{}.pgm", image->file.file.stem().string(), model_.cutouts.size()),
-                 image->opacity.pgm()});
-        }
-        to.cutout = image->cutout;
-        to.cutout_level = level;
-        if (mode == "MASK") return;
-        return model_.count("cut-outs", "a transparent material is cut out where its texture is half opaque",
-                            "{} transparent materials are cut out where their textures are half opaque");
-    }
-    const bool is_all_there =
-        mode == "MASK" && level <= 1 && (image == nullptr || image->opacity.is_all(level));
-    if (is_all_there) return;
-    model_.count("opacity", "the opacity of a material is left out; it is opaque",
-                 "the opacity of {} materials is left out; they are opaque");
-}
-
 Textures::MeasuredImage* Textures::image_of(const Json& info, const std::string& material) {
     const Json* const texture = element(array_of(json_, "textures"), index_of(info, "index"));
     std::optional<std::size_t> source;
@@ -224,8 +185,7 @@ Textures::MeasuredImage* Textures::image_at(std::size_t index, const std::string
                          fmt::format("{{}} textures are read according to their content, the first "
                                      "of {} as {}",
                                      material, other_format));
-        known->second =
-            MeasuredImage{.file = std::move(found), .means = means_of(pixels), .opacity = opacity_of(pixels)};
+        known->second = MeasuredImage{.file = std::move(found), .means = means_of(pixels)};
         return &*known->second;
     } catch (const candela::Error& problem) {
         model_.count(

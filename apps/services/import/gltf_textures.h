@@ -23,10 +23,7 @@ class Textures {
     struct MeasuredImage {
         Image file;
         Means means;
-        OpacityMap opacity;
-        std::optional<std::size_t> cutout{};  // index in the model
-        std::optional<std::size_t> index{};   // index in the model, once a surface shows it
-        std::optional<std::size_t> alpha{};   // of its opacity as a picture, once a parameter takes that
+        std::optional<std::size_t> index{};  // index in the model, once a surface shows it
     };
     /// A picture as a material places it.
     struct Placed {
@@ -41,17 +38,14 @@ class Textures {
     /// The texture of that name in a part of a material; nothing if there is none, or if it cannot be used,
     /// which is noted. `material`: as notes name it.
     std::optional<Placed> texture(const Json& from, const char* name, const std::string& material);
-    /// Uses a material's colour texture, times `factor`, for the surface, and returns its image; null if
-    /// there is none.
-    MeasuredImage* show(const Json& from, const char* name, const std::string& material,
-                        std::vector<double> factor, Material& to);
+    /// Uses a material's colour texture, times `factor`, for the surface, if it has one.
+    void show(const Json& from, const char* name, const std::string& material, std::vector<double> factor,
+              Material& to);
     /// Makes offset + scale * texel the values of a parameter, and returns their mean.
     std::vector<double> map(const Placed& picture, Channel channel, const char* parameter,
                             std::vector<double> scale, std::vector<double> offset, Material& to);
     /// Uses a material's normal map, if it has one.
     void tilt_normals(const Json& material, const std::string& name, Material& to);
-    /// Cuts a surface along the outline of its texture's opacity if the material asks for that.
-    void cut_out(const Json& material, double factor, MeasuredImage* image, Material& to);
 
   private:
     /// The image of a texture; null if it cannot be read.
@@ -59,7 +53,6 @@ class Textures {
     MeasuredImage* image_at(std::size_t index, const std::string& material);
     bool clamps(const Json& info);
     std::size_t index_of_image(MeasuredImage& image);
-    std::size_t index_of_alpha(MeasuredImage& image);
 
     Container& container_;
     const Json& json_;

@@ -38,22 +38,4 @@ struct Means {
 
 Means means_of(const candela::DecodedImage& image);
 
-/// A picture's opacity, in at most a few hundred rows and columns.
-struct OpacityMap {
-    int width = 0, height = 0;
-    std::string bytes{};        // 255: opaque; empty: all opaque
-    bool is_clear_cut = false;  // some pixels are opaque, some transparent, and few are neither
-
-    /// is_all(): whether all of it is at least `level`. is_cut_by(): whether some of it is, and some is not.
-    bool is_all(double level) const;
-    bool is_cut_by(double level) const;
-    /// As a binary greymap.
-    std::string pgm() const;
-};
-
-OpacityMap opacity_of(const candela::DecodedImage& image);
-
-/// A picture's whole opacity as a grey picture that image plugins read, a binary pixmap.
-std::string opacity_ppm(const candela::DecodedImage& image);
-
 }  // namespace importing

@@ -98,18 +98,6 @@ void show_backs_alone(Model& model, const candela::Mesh& mesh, const Vector& to_
     model.note("its triangles are single-sided and face away from the observer, so both sides are drawn");
 }
 
-void write_cutouts(const Request& request, Model& model, Setting& setting) {
-    try {
-        for (const Image& cutout : model.cutouts)
-            setting.cutouts.push_back(request.write_image(cutout.file.string(), cutout.content));
-    } catch (const candela::Error& problem) {
-        if (problem.category() != candela::ErrorCategory::bad_request) throw;
-        // A printed scene has no folder for other files.
-        setting.cutouts.clear();
-        model.note("transparent parts are not cut out: that needs a file next to the scene");
-    }
-}
-
 /// Positions in a scene are limited like those of a mesh.
 bool is_near(const Vector& position) {
     constexpr double k_farthest = 1e9;
@@ -241,7 +229,6 @@ Imported import_model(const Request& request, candela::Registry& registry) {
         setting.images.push_back(image.content.empty()
                                      ? request.name_of_image(image.file)
                                      : request.write_image(image.file.string(), image.content));
-    if (geometry.has_uv) write_cutouts(request, model, setting);
     constexpr double k_aspect = 4.0 / 3;
     const Bounds& bounds = geometry.bounds;
     setting.camera = model.camera ? *model.camera : camera_for(bounds, k_aspect);

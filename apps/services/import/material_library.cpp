@@ -233,6 +233,26 @@ void MaterialLibraries::add_emission(const Description& description, Material& t
                from.emission_map));
 }
 
+void MaterialLibraries::add_opacity(const Description& description, Material& to) {
+    const mesh_io::MtlMaterial& from = description.material;
+    double opacity = std::round(1e4 * from.opacity) / 1e4;
+    const auto picture =
+        from.opacity_map.file.empty() ? std::nullopt : image(from.opacity_map.file, to.name, description);
+    // Some programs write 0 next to a picture.
+    if (picture && opacity == 0) opacity = 1;
+    if (!picture && opacity == 1) return;
+    to.values.push_back({"opacity", {opacity}});
+    if (!picture) return;
+    if (picture->means.is_opacity_equal) return add(from.opacity_map, *picture, "opacity", opacity, 0, to);
+    // A picture with opacity means that.
+    to.values.back().second = {std::round(1e4 * opacity * picture->means.opacity) / 1e4};
+    to.maps.push_back({.parameter = "opacity",
+                       .image = picture->index,
+                       .channel = "a",
+                       .scale = {opacity},
+                       .clamps = from.opacity_map.clamps});
+}
+
 Material MaterialLibraries::material(const std::string& name) {
     const Description& description = *find(name);
     const mesh_io::MtlMaterial& d = description.material;
@@ -245,6 +265,7 @@ Material MaterialLibraries::material(const std::string& name) {
     add_emission(description, material);
     if (is_physical(d)) {
         become_metallic_roughness(description, material);
+        add_opacity(description, material);
         return material;
     }
     if (d.illumination == 0)
@@ -275,6 +296,7 @@ Material MaterialLibraries::material(const std::string& name) {
     for (const auto& [parameter, rgb] : {std::pair{"ka", &ka}, {"kd", &kd}, {"ks", &ks}})
         material.values.emplace_back(parameter, are_all(*rgb, (*rgb)[0]) ? std::vector{(*rgb)[0]} : *rgb);
     material.values.push_back({"shininess", {shininess}});
+    add_opacity(description, material);
     return material;
 }
 

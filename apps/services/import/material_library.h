@@ -58,6 +58,7 @@ class MaterialLibraries {
     static void add(const mesh_io::MtlMap& map, const MeasuredImage& picture, const char* parameter,
                     double scale, double offset, Material& to);
     void add_emission(const Description& from, Material& to);
+    void add_opacity(const Description& from, Material& to);
     std::vector<double> coefficients(const std::vector<double>& value, double otherwise);
     /// The picture of that name.
     std::optional<MeasuredImage> image(const std::string& file, const std::string& material,

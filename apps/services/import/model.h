@@ -77,7 +77,7 @@ std::vector<double> shortened(std::vector<double> numbers);
 struct ParameterMap {
     std::string parameter;
     std::size_t image = 0;                    // index in Model::images
-    std::string channel{};                    // r, g or b; empty: all three, encoded like colours
+    std::string channel{};                    // r, g, b or a; empty: all three, encoded like colours
     std::vector<double> scale{1}, offset{0};  // one number or three
     bool clamps = false;                      // the picture is clamped at its edges
     Placing placing{};
@@ -94,8 +94,6 @@ struct Material {
     Vector emission{0, 0, 0};               // 0-255, unless it is one of the maps
     double emission_strength = 1;
     std::optional<ParameterMap> color_map{};  // instead of `color`
-    std::optional<std::size_t> cutout{};      // index in Model::cutouts; clamped like the colour's picture
-    double cutout_level = 0.5;
 };
 
 /// Makes linear intensities of any brightness the emission of a material: a colour and its strength.
@@ -153,7 +151,6 @@ struct Model {
     std::vector<Material> materials;
     std::vector<Part> parts;  // at least one
     std::vector<Image> images;
-    std::vector<Image> cutouts;  // greymaps of opacity
     std::optional<Camera> camera;
     std::vector<Light> lights;
     Moving moving{};

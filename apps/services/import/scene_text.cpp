@@ -194,11 +194,6 @@ class Writer {
         if (setting_.allows_outside) add("allow_outside", "true");
         if (part.is_flat) add("crease_angle", "0.0");
         if (part.sides != Sides::outside) add("sides", part.sides == Sides::front ? "\"front\"" : "\"both\"");
-        if (material != nullptr && material->cutout && setting_.is_textured && !setting_.cutouts.empty()) {
-            add("cutout", candela::toml_text(setting_.cutouts[*material->cutout]));
-            if (material->cutout_level != 0.5) add("cutout_level", real(material->cutout_level));
-            if (material->color_map->clamps) add("cutout_clamps", "true");
-        }
         if (model_.is_z_up) add("rotation", "[-90.0, 0.0, 0.0]");
         // Intentionally visible from both sides.
         if (model_.parts.size() > 1 || !setting_.is_closed || !model_.lights.empty() ||

@@ -12,9 +12,8 @@ namespace importing {
 
 /// The data that a scene needs in addition to the model itself.
 struct Setting {
-    std::string file;                  // the model's file, as named in the scene
-    std::vector<std::string> images;   // names of Model::pictures in the scene
-    std::vector<std::string> cutouts;  // names of Model::cutouts in the scene
+    std::string file;                 // the model's file, as named in the scene
+    std::vector<std::string> images;  // names of Model::pictures in the scene
     Camera camera;
     Vector look_at{};
     Vector room{};  // width, height, depth

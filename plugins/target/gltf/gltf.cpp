@@ -117,6 +117,7 @@ class GltfTarget final : public Target {
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,
+                .opacity = true,
                 .shadows = true,  // programs that show the file cast their own, and expose it
                 .display = true};
     }

@@ -104,6 +104,7 @@ bool Pictures::is_read_alike(std::size_t texture, bool is_encoded) const {
     stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
     if (media_type(begin) == nullptr) return false;
     const auto fits = [&](ColorEncoding encoding) { return target::pixels_of(of, encoding).is_encoded; };
+    if (of.is_opacity) return fits(ColorEncoding::none);
     const bool is_linear = fits(ColorEncoding::none), is_srgb = fits(ColorEncoding::srgb);
     if (!(is_encoded ? is_srgb : is_linear)) return false;
     // The values of few colours may be those of other bytes in the other encoding.

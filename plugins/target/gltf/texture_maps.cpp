@@ -108,6 +108,12 @@ std::optional<Json> transform_json(const float (&placing)[6]) {
                 {"scale", {rounded(width), rounded(height)}}};
 }
 
+/// Whether it is placed as textures of colours are.
+bool is_as_colors(const ExportedTexturedNumber& number) {
+    constexpr float k_everywhere[] = {1, 0, 0, 0, 1, 0};
+    return std::ranges::equal(number.placing, k_everywhere);
+}
+
 bool is_placed_like(const ExportedTexturedNumber& a, const ExportedTexturedNumber& b) {
     return a.repeats == b.repeats && std::ranges::equal(a.placing, b.placing);
 }
@@ -137,6 +143,11 @@ bool is_along_tangent(const ExportedTextureLevel& level) {
         if (red != 255 || green < 127 || green > 128) return false;
     }
     return true;
+}
+
+/// The channel of the file from which a number comes, 0 to 3.
+std::size_t channel_in_file(const ExportedScene& scene, const ExportedTexturedNumber& number) {
+    return scene.textures[number.texture].is_opacity ? 3 : number.texel_channel;
 }
 
 void set_factor(Json& to, const Channel& channel, std::size_t count, float factor) {
@@ -267,12 +278,77 @@ void TextureMaps::add_occlusion(const ExportedObject& object, Json& material) {
     const ExportedTexturedNumber& number = object.occlusion_numbers.front();
     const std::vector<Source> sources{{.channel = &k_occlusion[0], .number = &number}};
     constexpr float k_rounding = 1e-4f;
-    const bool is_strength = number.texel_channel == 0 && number.scale > 0 && number.scale <= 1 &&
+    const bool is_strength = channel_in_file(scene_, number) == 0 && number.scale > 0 && number.scale <= 1 &&
                              std::abs(number.offset + number.scale - 1) < k_rounding;
     const auto file = is_strength ? pictures_.file_of(number.texture, false) : std::nullopt;
     const std::size_t image = file ? *file : baked(k_occlusion_map, sources).image;
     material["occlusionTexture"] = info_of(image, number.repeats, number.placing);
     if (file && number.scale != 1) material["occlusionTexture"]["strength"] = number.scale;
+}
+
+void TextureMaps::add_opacity(const ExportedObject& object, Json& material) {
+    if (!object.is_see_through()) return;
+    material["alphaMode"] = object.opacity_cutoff > 0 ? "MASK" : "BLEND";
+    if (object.opacity_cutoff > 0) material["alphaCutoff"] = object.opacity_cutoff;
+    Json& surface = material["pbrMetallicRoughness"];
+    float factor = object.opacity;
+    if (!object.opacity_numbers.empty()) {
+        const ExportedTexturedNumber& number = object.opacity_numbers.front();
+        const bool is_factor = number.offset == 0 && number.scale >= 0 && number.scale <= 1;
+        const bool is_of_color =
+            is_factor && has_color_of(object, number) && scene_.textures[number.texture].is_opacity;
+        factor = is_of_color ? number.scale : 1;
+        if (!is_of_color) surface["baseColorTexture"] = covering_color(object, number);
+    }
+    surface["baseColorFactor"][3] = factor;
+}
+
+/// Whether an object's colour comes from the file that gives its opacity, in the same place.
+bool TextureMaps::has_color_of(const ExportedObject& object, const ExportedTexturedNumber& number) const {
+    return object.color_texture != ExportedObject::k_no_texture &&
+           std::string_view(scene_.textures[object.color_texture].file) ==
+               scene_.textures[number.texture].file &&
+           number.repeats == object.color_texture_repeats && is_as_colors(number);
+}
+
+/// A picture of an object's colour, or white, whose alpha is its opacity.
+Json TextureMaps::covering_color(const ExportedObject& object, const ExportedTexturedNumber& number) {
+    const ExportedTextureLevel& opacity = scene_.textures[number.texture].levels.front();
+    const ExportedTextureLevel* color = nullptr;
+    if (object.color_texture != ExportedObject::k_no_texture) {
+        color = &scene_.textures[object.color_texture].levels.front();
+        if (number.repeats != object.color_texture_repeats || !is_as_colors(number))
+            files_.approximate(
+                fmt::format("the opacity of object {} is placed like its colour", object.label).c_str());
+        if (color->width != opacity.width || color->height != opacity.height)
+            files_.approximate("pictures that share a texture map are brought to one size");
+    }
+    const auto info = [&](std::size_t image) -> Json {
+        if (color == nullptr) return info_of(image, number.repeats, number.placing);
+        return {{"index", pictures_.texture_of(image, object.color_texture_repeats)}};
+    };
+    const std::string key = fmt::format("opacity {} {} {} {} {} {} {}", number.texture, number.texel_channel,
+                                        number.scale, number.offset, number.minimum, number.maximum,
+                                        color != nullptr ? fmt::format("{}", object.color_texture) : "-");
+    const auto [known, is_new] = baked_.try_emplace(key);
+    if (!is_new) return info(known->second.image);
+    const int width = std::max(opacity.width, color != nullptr ? color->width : 1),
+              height = std::max(opacity.height, color != nullptr ? color->height : 1);
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    const auto byte_of = [](float share) { return static_cast<std::uint8_t>(std::lround(255 * share)); };
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            const double u = (x + 0.5) / width, v = (y + 0.5) / height;
+            for (std::size_t c = 0; c < 3; ++c)
+                bytes.push_back(color == nullptr ? 255 : byte_of(linear_to_srgb(texel_at(*color, c, u, v))));
+            const float texel = texel_at(opacity, number.texel_channel, u, v);
+            bytes.push_back(byte_of(
+                std::min(std::max(number.offset + number.scale * texel, number.minimum), number.maximum)));
+        }
+    }
+    known->second.image = pictures_.add(png_of(width, height, 4, bytes), "image/png");
+    return info(known->second.image);
 }
 
 void TextureMaps::add_normals(const ExportedObject& object, Json& material) {
@@ -311,7 +387,7 @@ std::optional<TextureMaps::Picture> TextureMaps::file_of(const Map& map, const s
         const bool has_range = map.minimum != nullptr;
         const bool is_factor = !source.channel->is_inverted && (n.offset == 0 || has_range) && n.scale >= 0 &&
                                white <= map.most && n.offset >= n.minimum && white <= n.maximum;
-        if (!is_factor || n.texel_channel != source.channel->of_map ||
+        if (!is_factor || channel_in_file(scene_, n) != source.channel->of_map ||
             texture.value_or(n.texture) != n.texture)
             return std::nullopt;
         texture = n.texture;

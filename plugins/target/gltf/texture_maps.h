@@ -27,6 +27,8 @@ class TextureMaps {
     /// Adds what an object emits, and its occlusion, to a material of any model.
     void add_emission(const ExportedObject& object, Json& material);
     void add_occlusion(const ExportedObject& object, Json& material);
+    /// Adds its opacity, after its colour and the texture of that.
+    void add_opacity(const ExportedObject& object, Json& material);
 
     /// Adds the object's normal map to a material, if it has one; a bump map is left out, which is reported.
     void add_normals(const ExportedObject& object, Json& material);
@@ -51,6 +53,8 @@ class TextureMaps {
     };
 
     void add(const ExportedObject& object, const Map& map, std::vector<Source> sources, Json& material);
+    bool has_color_of(const ExportedObject& object, const ExportedTexturedNumber& number) const;
+    Json covering_color(const ExportedObject& object, const ExportedTexturedNumber& number);
     Json info_of(std::size_t image, bool repeats, const float (&placing)[6]);
     /// Sources that glTF reads from the file of their one picture; nothing if it cannot.
     std::optional<Picture> file_of(const Map& map, const std::vector<Source>& sources);

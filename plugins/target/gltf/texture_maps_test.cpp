@@ -257,3 +257,32 @@ occlusion = { texture = "row.ppm", channel = "g", scale = -1, offset = 1 })"));
     expect(folder.run("generate scene.toml --target gltf -o out"), 1,
            {"the occlusion of object ball, which has no texture, is left out"});
 }
+
+TEST_CASE("target/gltf: opacity is the alpha of the colour, with any reflection model") {
+    const Folder folder;
+    for (const char* const reflection : {"metallic-roughness", "phong"}) {
+        const Glb pane = generated(folder, scene("opacity = 0.25", reflection), {"--approximate"});
+        CHECK(pane.material()["alphaMode"] == "BLEND");
+        CHECK(pane.material()["pbrMetallicRoughness"]["baseColorFactor"][3] == 0.25);
+        CHECK_FALSE(pane.material().contains("alphaCutoff"));
+        // A closed object that something is seen through has an inside.
+        CHECK(pane.material()["doubleSided"] == true);
+    }
+    const Glb gone = generated(folder, scene("opacity = 0.25\nopacity_cutoff = 0.5"));
+    CHECK(gone.material()["alphaMode"] == "MASK");
+    CHECK(gone.material()["alphaCutoff"] == 0.5);
+    CHECK_FALSE(generated(folder, scene("opacity = 1")).material().contains("alphaMode"));
+    CHECK_FALSE(
+        generated(folder, scene("opacity = 0.5\nopacity_cutoff = 0.5")).material().contains("alphaMode"));
+    SECTION("a texture without a colour's is white with that alpha") {
+        folder.write("row.ppm", row({0, 51, 255, 255, 102, 0}));
+        const Glb made =
+            generated(folder, scene(R"(opacity = { texture = "row.ppm", channel = "g", scale = 0.5 }
+opacity_cutoff = 0.1)"));
+        CHECK(made.material()["alphaMode"] == "MASK");
+        const std::string file = made.file(made.material()["pbrMetallicRoughness"]["baseColorTexture"]);
+        // Its header says that it has four channels.
+        CHECK(file[25] == 6);
+        CHECK(made.material()["pbrMetallicRoughness"]["baseColorFactor"][3] == 1);
+    }
+}
