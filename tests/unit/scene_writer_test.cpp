@@ -220,6 +220,8 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.objects[1].common.emission = {10, 200, 30}; },
         [](Scene& s) { s.objects[1].common.emission_strength = 12.5f; },
         [](Scene& s) { s.objects[1].common.occlusion = 0.25f; },
+        [](Scene& s) { s.objects[1].common.opacity = 0.25f; },
+        [](Scene& s) { s.objects[1].common.opacity_cutoff = 0.25f; },
         [](Scene& s) {
             const std::string file = std::string(CANDELA_TEST_SOURCE) + "/LICENSE";
             s.objects[1].common.textures = {
@@ -228,7 +230,8 @@ TEST_CASE("scenes that differ in one value are different") {
                  .file = file,
                  .channel = candela::TextureChannel::green,
                  .scale = {0.5f, 0.5f, 0.5f},
-                 .offset = {0.25f, 0.25f, 0.25f}}};
+                 .offset = {0.25f, 0.25f, 0.25f}},
+                {.parameter = "opacity", .file = file, .channel = candela::TextureChannel::alpha}};
             s.objects[1].common.occlusion = 0.75f;
         },
         [](Scene& s) { s.objects[1].shading.name = "flat"; },

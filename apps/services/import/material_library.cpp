@@ -246,11 +246,9 @@ void MaterialLibraries::add_opacity(const Description& description, Material& to
     if (picture->means.is_opacity_equal) return add(from.opacity_map, *picture, "opacity", opacity, 0, to);
     // A picture with opacity means that.
     to.values.back().second = {std::round(1e4 * opacity * picture->means.opacity) / 1e4};
-    to.maps.push_back({.parameter = "opacity",
-                       .image = picture->index,
-                       .channel = "a",
-                       .scale = {opacity},
-                       .clamps = from.opacity_map.clamps});
+    to.maps.push_back(
+        placed({.parameter = "opacity", .image = picture->index, .channel = "a", .scale = {opacity}},
+               from.opacity_map));
 }
 
 Material MaterialLibraries::material(const std::string& name) {

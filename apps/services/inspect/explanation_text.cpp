@@ -254,6 +254,16 @@ class Writer {
                             has_unit ? ": candela or lux over pi, at 683 lm/W" : ""));
     }
 
+    /// Whether shadows of surfaces may be partial. Transparent models are another reason.
+    bool lets_light_through() const {
+        return std::ranges::any_of(
+                   e_.compiled.objects,
+                   [](const candela::RenderObject& object) { return object.surface.is_see_through(); }) &&
+               std::ranges::none_of(e_.compiled.objects, [](const candela::RenderObject& object) {
+                   return object.surface.environment_reflection != nullptr;
+               });
+    }
+
     /// How much of the light is not blocked, and by what it is.
     void write_visibility(const LightTrace& light) {
         if (!e_.may_be_blocked(light)) return;
@@ -263,6 +273,8 @@ class Writer {
             remark = fmt::format("{} by object {}, triangle {}, at {:.6g} m",
                                  light.visibility == Vec3{} ? "blocked" : "partly blocked", label.text(),
                                  light.blocker->triangle, light.blocker->distance);
+        } else if (light.visibility != Vec3{1, 1, 1} && lets_light_through()) {
+            remark = "surfaces that are not opaque are in the way";
         }
         value(3, "visibility", light.visibility, remark);
     }
