@@ -53,6 +53,7 @@ using candela::Environment;
 using candela::EnvironmentReflection;
 using candela::ExitBatch;
 using candela::extension_of;
+using candela::GlossyReflection;
 using candela::PunctualSource;
 using candela::SkySource;
 using candela::UniformAmbientSource;

@@ -5,6 +5,7 @@ namespace candela {
 PunctualSource::~PunctualSource() = default;
 UniformAmbientSource::~UniformAmbientSource() = default;
 SkySource::~SkySource() = default;
+GlossyReflection::~GlossyReflection() = default;
 AllLightsReflection::~AllLightsReflection() = default;
 Environment::~Environment() = default;
 EnvironmentReflection::~EnvironmentReflection() = default;

@@ -69,6 +69,7 @@ class SceneBuilder {
         if (draft.is_complete) make_models();
         if (draft.is_complete) make_textures();
         if (draft.is_complete) make_environment();
+        if (draft.is_complete) make_mirror_images();
         place_shapes();
         if (!has_kept_triangles() || !is_placed_as(before_->scene, scene_)) check(draft);
     }
@@ -210,6 +211,18 @@ class SceneBuilder {
         }
         guarded("light " + source.label.text(), source.place,
                 [&] { built_.environment = environment_of(*sky); });
+    }
+
+    /// Finds what glossy surfaces mirror.
+    void make_mirror_images() {
+        if (std::ranges::none_of(built_.objects, [](const RenderObject& solid) {
+                return solid.surface.glossy_reflection != nullptr;
+            }))
+            return;
+        for (std::size_t i = 0; i < built_.lights.size() && i < scene_.lights.size(); ++i) {
+            const LightSource& light = scene_.lights[i];
+            guarded("light " + light.label.text(), light.place, [&] { built_.lights[i].find_radiance(); });
+        }
     }
 
     /// Runs what a shape plugin or a shading model does to an object.

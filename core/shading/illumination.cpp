@@ -96,21 +96,22 @@ bool is_extended(const PunctualLight& sample) {
 
 bool RenderLight::has_extent() const { return data && std::ranges::any_of(data->samples, is_extended); }
 
-std::span<const float* const> SurfaceShader::visibility_of_data(const SurfacePoints& points) {
-    const std::size_t lights = punctual_lights_.size();
+std::span<const float* const> SurfaceShader::visibility_of_data(const LightsAtOnce& all,
+                                                                const SurfacePoints& points) {
+    const std::size_t lights = all.punctual.size();
     weights_.resize((lights + 1) * k_batch_size);
     weight_pointers_.resize(lights);
     float* const everywhere = &weights_[lights * k_batch_size];
     std::fill_n(everywhere, points.filled, 1.0f);
     bool is_any_blocked = false;
     for (std::size_t k = 0; k < lights; ++k) {
-        const std::uint32_t packets = is_blocked_[k] ? visibility_->packets_to_trace(punctual_lights_[k]) : 0;
+        const std::uint32_t packets = all.is_blocked[k] ? visibility_->packets_to_trace(all.punctual[k]) : 0;
         if (packets == 0) {
             weight_pointers_[k] = everywhere;
             continue;
         }
         is_any_blocked = true;
-        LightSample light = light_at(punctual_lights_[k], 0, points);
+        LightSample light = light_at(all.punctual[k], 0, points);
         light.packets = packets;
         const ConstVec3Span left = visibility_->find(light);
         float* const weights = &weights_[k * k_batch_size];

@@ -2,6 +2,7 @@
 export module candela.shading;
 
 export import :environment_map;
+export import :radiance_map;
 export import :surface;
 export import :surface_shader;
 export import :term;

@@ -12,6 +12,7 @@ module;
 export module candela.shading:surface;
 
 import :environment_map;
+import :radiance_map;
 import :texture;
 import candela.api;
 import candela.geometry;
@@ -33,12 +34,18 @@ struct RenderLight {
     std::unique_ptr<Light> light;
     bool has_ambient = false;
     std::optional<LightData> data{};  // empty: only the light itself knows
+    const SkySource* sky = nullptr;   // the light itself, if it can be seen
+    /// The map that surfaces mirror, if there are such surfaces; see find_radiance().
+    std::shared_ptr<const RadianceMap> radiance{};
     // Effective in a LightingContext with an OcclusionTree.
     bool casts_shadows = true;
     AmbientOcclusion ambient_occlusion{};
 
     /// Whether a sample is more than a point, so that its light has penumbras.
     CANDELA_EXPORT bool has_extent() const;
+    /// Finds what surfaces mirror of it, unless that is known or it cannot be seen. Throws Error, naming the
+    /// plugin.
+    CANDELA_EXPORT void find_radiance();
 };
 
 /// Creates the light, and asks it once whether it is data. Throws Error, naming the plugin.
@@ -63,6 +70,7 @@ struct CANDELA_EXPORT SurfaceModels {
     // The extensions that `reflection` offers.
     const AllLightsReflection* all_lights_reflection = nullptr;
     const EnvironmentReflection* environment_reflection = nullptr;
+    const GlossyReflection* glossy_reflection = nullptr;
 
     /// Create the models, and ask them once what they need and offer. Throw Error, naming the plugin.
     void set_shading(Registry& registry, const Model& model, ColorEncoding encoding);

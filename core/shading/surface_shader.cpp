@@ -144,6 +144,7 @@ RenderLight render_light(Registry& registry, const Model& model, ColorEncoding e
                      .light = registry.create<Light>(model.name, model.parameters, encoding),
                      .has_ambient = registry.descriptor(PluginKind::light, model.name).has_ambient};
     guarded(PluginKind::light, made.plugin, [&] { made.data = data_of(*made.light, made.has_ambient); });
+    made.sky = extension_of<SkySource>(*made.light);
     return made;
 }
 
@@ -163,6 +164,7 @@ void SurfaceModels::set_reflection(Registry& registry, const Model& model, Color
     });
     all_lights_reflection = extension_of<AllLightsReflection>(*reflection);
     environment_reflection = extension_of<EnvironmentReflection>(*reflection);
+    glossy_reflection = extension_of<GlossyReflection>(*reflection);
 }
 
 PointNeeds SurfaceModels::needs() const {
@@ -221,7 +223,7 @@ void shading_normals(const SurfaceModels& surface, const SurfacePoints& points, 
 }
 
 SurfaceShader::SurfaceShader() {
-    for (AlignedVector<float>* const array : {&distance_, &attenuation_})
+    for (AlignedVector<float>* const array : {&distance_, &attenuation_, &widths_})
         array->resize(k_batch_size + k_guard_size);
     zeros_.resize(k_batch_size);
     for (Vec3Arrays* const arrays : {&to_observer_, &tangent_}) arrays->resize(k_batch_size);
@@ -238,29 +240,37 @@ void SurfaceShader::begin(const LightingContext& scene) {
     if (visibility_ != nullptr) visibility_->begin(scene);
     surroundings_.reset();
     lights_.clear();
-    other_lights_.clear();
-    punctual_lights_.clear();
-    lighting_ = {};
-    is_blocked_.clear();
-    const bool has_shadows = scene.occlusion != nullptr;
-    for (const RenderLight& source : scene.lights) {
-        lights_.push_back(&source);
-        const bool varies = scene.pattern == ShadowPattern::varied && source.has_extent();
+    for (const RenderLight& source : scene.lights) lights_.push_back(&source);
+    at_once_ = lights_at_once(false);
+    const bool is_mirrored = std::ranges::any_of(
+        scene.lights, [](const RenderLight& source) { return source.radiance != nullptr; });
+    glossy_at_once_ = is_mirrored ? lights_at_once(true) : LightsAtOnce();
+}
+
+SurfaceShader::LightsAtOnce SurfaceShader::lights_at_once(bool is_glossy) const {
+    LightsAtOnce all;
+    const bool has_shadows = scene_.occlusion != nullptr;
+    for (const RenderLight& source : scene_.lights) {
+        const bool varies = scene_.pattern == ShadowPattern::varied && source.has_extent();
         const bool is_one_by_one =
             has_shadows && ((source.casts_shadows && varies) || source.ambient_occlusion.rays > 0);
-        if (!source.data || is_one_by_one) {
-            other_lights_.push_back(&source);
+        if (!source.data || is_one_by_one || (is_glossy && source.radiance != nullptr)) {
+            all.others.push_back(&source);
             continue;
         }
-        punctual_lights_.insert(punctual_lights_.end(), source.data->samples.begin(),
-                                source.data->samples.end());
-        is_blocked_.resize(punctual_lights_.size(), has_shadows && source.casts_shadows);
-        lighting_.ambient = lighting_.ambient + source.data->ambient;
+        all.punctual.insert(all.punctual.end(), source.data->samples.begin(), source.data->samples.end());
+        all.is_blocked.resize(all.punctual.size(), has_shadows && source.casts_shadows);
+        all.lighting.ambient = all.lighting.ambient + source.data->ambient;
     }
-    lighting_.lights = punctual_lights_;
-    const bool is_perspective = scene.camera.projection == Projection::perspective;
-    lighting_.observer = is_perspective ? scene.camera.eye : -scene.camera.forward;
-    lighting_.w = is_perspective ? 1.0f : 0.0f;
+    const bool is_perspective = scene_.camera.projection == Projection::perspective;
+    all.lighting.observer = is_perspective ? scene_.camera.eye : -scene_.camera.forward;
+    all.lighting.w = is_perspective ? 1.0f : 0.0f;
+    return all;
+}
+
+const SurfaceShader::LightsAtOnce& SurfaceShader::at_once(const SurfaceModels& surface) const {
+    const bool mirrors_some = surface.glossy_reflection != nullptr && !glossy_at_once_.others.empty();
+    return mirrors_some ? glossy_at_once_ : at_once_;
 }
 
 std::array<Vec3Arrays*, 8> SurfaceShader::written_by_plugins() {
@@ -324,11 +334,11 @@ float SurfaceShader::shade(const SurfaceModels& surface, const ShadedObject& obj
     if (!reflect_all_lights(surface, points)) {
         add_up(surface, object, points, lights_, Checking::none);
         largest = add<3>({ambient, diffuse, specular}, count, intensity);
-    } else if (other_lights_.empty()) {
+    } else if (at_once(surface).others.empty()) {
         largest = add<1>({reflected}, count, intensity);
         written = in_one_go;
     } else {
-        add_up(surface, object, points, other_lights_, Checking::none);
+        add_up(surface, object, points, at_once(surface).others, Checking::none);
         largest = add<4>({reflected, ambient, diffuse, specular}, count, intensity);
     }
     if (!std::isfinite(largest) || !are_ends_intact(written)) check_steps(surface, object, points);
@@ -350,15 +360,17 @@ void SurfaceShader::check_steps(const SurfaceModels& surface, const ShadedObject
 }
 
 bool SurfaceShader::reflect_all_lights(const SurfaceModels& surface, const SurfacePoints& points) {
-    if (other_lights_.size() == lights_.size() || surface.all_lights_reflection == nullptr ||
+    const LightsAtOnce& all = at_once(surface);
+    if (all.others.size() == lights_.size() || surface.all_lights_reflection == nullptr ||
         surface.environment_reflection != nullptr || surface.is_occluded())
         return false;
     // Weights have no colour.
     if (has_shadows_ && scene_.occlusion->has_transparent()) return false;
     const std::size_t count = lit_of(surface, points);
     find_tangents(surface, points, count);
-    PunctualLighting lighting = lighting_;
-    if (has_shadows_) lighting.visibility = visibility_of_data(points);
+    PunctualLighting lighting = all.lighting;
+    lighting.lights = all.punctual;
+    if (has_shadows_) lighting.visibility = visibility_of_data(all, points);
     SurfaceBatch batch = lit_surface(surface, points, count);
     batch.to_observer = {};
     guarded(PluginKind::reflection, surface.reflection_plugin,
@@ -406,17 +418,26 @@ void SurfaceShader::add_up(const SurfaceModels& surface, const ShadedObject& obj
     const ReflectedBatch reflected{ambient_.span(), diffuse_.span(), specular_.span()};
     for (const Vec3Span& sum : {reflected.ambient, reflected.diffuse, reflected.specular}) clear(sum, count);
 
+    const bool is_mirror =
+        std::ranges::any_of(lights, [&](const RenderLight* source) { return mirrors(surface, *source); });
+    if (is_mirror) find_widths(surface, batch);
     for (const RenderLight* const light : lights) {
         const RenderLight& source = *light;
+        const bool is_mirrored = mirrors(surface, source);
         for (int sample = 0; sample < source.light->sample_count(); ++sample) {
             const auto shadowed = illuminate(source, sample, points, count);
             look_at(PluginKind::light, source.plugin, {&to_light_, &light_diffuse_, &light_specular_});
             if (shadowed) block(*shadowed, count);
+            if (is_mirrored) share_with_mirror(source, count);
             guarded(PluginKind::reflection, surface.reflection_plugin, [&] {
                 surface.reflection->reflect(
                     batch, {to_light_.span(), light_diffuse_.span(), light_specular_.span()}, reflected);
             });
             look_at(PluginKind::reflection, surface.reflection_plugin, {&diffuse_, &specular_});
+        }
+        if (is_mirrored) {
+            add_mirrored(source, surface, points, batch, reflected);
+            look_at(PluginKind::reflection, surface.reflection_plugin, {&specular_});
         }
         if (source.has_ambient) {
             illuminate_ambient(source, points, count);

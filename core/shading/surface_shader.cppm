@@ -84,6 +84,18 @@ class CANDELA_EXPORT SurfaceShader {
     /// Writes to `reflected_` what the reflection model reflects of all lights that are data. Returns false
     /// if there are no such lights or the model does not evaluate them at once.
     bool reflect_all_lights(const SurfaceModels& surface, const SurfacePoints& points);
+    struct LightsAtOnce;
+    LightsAtOnce lights_at_once(bool is_glossy) const;
+    /// Those that `surface` reflects all at once, and those that remain.
+    const LightsAtOnce& at_once(const SurfaceModels& surface) const;
+    bool mirrors(const SurfaceModels& surface, const RenderLight& source) const;
+    /// Writes the widths of highlights.
+    void find_widths(const SurfaceModels& surface, const SurfaceBatch& batch);
+    /// Leaves to light_specular_ what a sample of a light causes itself, and its mirror image does not.
+    void share_with_mirror(const RenderLight& source, std::size_t count);
+    /// Adds the mirror image of a light to `reflected`.
+    void add_mirrored(const RenderLight& source, const SurfaceModels& surface, const SurfacePoints& points,
+                      const SurfaceBatch& batch, const ReflectedBatch& reflected);
     void find_n_dot_l(const SurfacePoints& points, const Vec3Span& values);
     void find_visibility(const SurfacePoints& points, const Vec3Span& values);
     void find_ambient_visibility(const SurfacePoints& points, const Vec3Span& values);
@@ -99,7 +111,7 @@ class CANDELA_EXPORT SurfaceShader {
     /// Writes a light that is data to to_light_, distance_ and attenuation_.
     LightSample light_at(const PunctualLight& light, int sample, const SurfacePoints& points);
     /// The fractions of punctual_lights_ that reach the points.
-    std::span<const float* const> visibility_of_data(const SurfacePoints& points);
+    std::span<const float* const> visibility_of_data(const LightsAtOnce& lights, const SurfacePoints& points);
     void check_steps(const SurfaceModels& surface, const ShadedObject& object, const SurfacePoints& points);
     /// The reflection model's input; the arrays are this object's and the points'.
     SurfaceBatch lit_surface(const SurfaceModels& surface, const SurfacePoints& points,
@@ -112,10 +124,15 @@ class CANDELA_EXPORT SurfaceShader {
                        std::initializer_list<const Vec3Arrays*> results);
 
     LightingContext scene_;
-    Lights lights_, other_lights_;  // all, and those that are evaluated one by one
-    std::vector<PunctualLight> punctual_lights_;
-    std::vector<bool> is_blocked_;                     // whether objects may block them
-    PunctualLighting lighting_;                        // refers to them
+    /// Lights that are evaluated at once, and the others, one by one.
+    struct LightsAtOnce {
+        Lights others;
+        std::vector<PunctualLight> punctual;
+        std::vector<bool> is_blocked;  // whether objects may block them
+        PunctualLighting lighting;     // without them
+    };
+    Lights lights_;
+    LightsAtOnce at_once_, glossy_at_once_;            // for surfaces that mirror no light, and some
     std::vector<VaryingParameter> varying_;            // of the points' material
     std::unique_ptr<ObjectEnvironment> surroundings_;  // created when a model asks
     Vec3Arrays normal_, to_observer_, tangent_;
@@ -124,7 +141,7 @@ class CANDELA_EXPORT SurfaceShader {
     Vec3Arrays reflected_;                         // of the lights that are data
     bool has_shadows_ = false;                     // at the current points
     std::unique_ptr<LightVisibility> visibility_;  // created for the first scene with shadows
-    AlignedVector<float> distance_, attenuation_, weights_, zeros_;
+    AlignedVector<float> distance_, attenuation_, weights_, zeros_, widths_;
     std::vector<const float*> weight_pointers_;
 };
 

@@ -87,6 +87,8 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
     };
     for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
         const RenderLight& source = scene_.lights[i];
+        const bool is_mirrored = mirrors(surface, source);
+        if (is_mirrored) find_widths(surface, batch);
         for (int sample = 0; sample < source.light->sample_count(); ++sample) {
             start();
             LightTrace light{.light = i, .sample = sample};
@@ -95,6 +97,7 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
                 light.visibility = visibility_->find(*shadowed)[0];
                 light.blocker = visibility_->find_blocker(*shadowed);
             }
+            if (is_mirrored) share_with_mirror(source, count);
             guarded(PluginKind::reflection, surface.reflection_plugin, [&] {
                 surface.reflection->reflect(
                     batch, {to_light_.span(), light_diffuse_.span(), light_specular_.span()}, reflected);
@@ -103,6 +106,11 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
             light.diffuse = first_of(light_diffuse_);
             light.specular = first_of(light_specular_);
             add(light);
+        }
+        if (is_mirrored) {
+            start();
+            add_mirrored(source, surface, points, batch, reflected);
+            add({.light = i, .sample = LightTrace::k_mirrored});
         }
         if (source.has_ambient) {
             start();

@@ -16,10 +16,11 @@ export namespace candela {
 /// The light that one sample of a light source sends to a point, and what the surface reflects of it.
 struct LightTrace {
     static constexpr int k_ambient = -1;
+    static constexpr int k_mirrored = -2;
 
     std::size_t light = 0;   // index among the scene's
-    int sample = k_ambient;  // of the light; k_ambient: its ambient part
-    Vec3 to_light{};         // L, unit; zero for ambient light
+    int sample = k_ambient;  // of the light; k_ambient: its ambient part; k_mirrored: its mirror image
+    Vec3 to_light{};         // L, unit; zero for ambient light and a mirror image
     Vec3 diffuse{};  // the intensity that arrives, per channel; the ambient intensity for ambient light
     Vec3 specular{};
     /// The fraction that is not blocked, which both intensities include; 1 without shadows, and where no ray

@@ -29,7 +29,9 @@ struct KindFunctions {
 
 const std::vector<KindFunctions>& all_kinds() {
     static const std::vector<KindFunctions> k_kinds = {
-        {PluginKind::reflection, {"reflect"}, {"reflect_ambient", "enter", "leave", "transmit", "prepare"}},
+        {PluginKind::reflection,
+         {"reflect"},
+         {"reflect_ambient", "highlight_width", "enter", "leave", "transmit", "prepare"}},
         {PluginKind::light,
          {"illuminate", "illuminate_ambient"},
          {"sample_count", "punctual", "extent", "distance", "seen", "prepare"}},
@@ -170,6 +172,12 @@ class ModelReader {
                         fmt::format("a model with {0}_{1} also needs {0}_{2}", model_.prefix, present, name)};
         };
         require("reflect", {"reflect_ambient"});
+        if (model_.functions.contains("enter") && model_.functions.contains("highlight_width"))
+            throw Refusal{
+                function("highlight_width")->name_place,
+                fmt::format("a transparent model, with {0}_enter, mirrors its surroundings sharply; "
+                            "remove {0}_highlight_width",
+                            model_.prefix)};
         require("enter", {"leave", "transmit"});
         require("leave", {"enter"});
         require("transmit", {"enter"});

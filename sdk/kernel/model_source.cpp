@@ -271,8 +271,12 @@ class SourceWriter {
         const bool refracts = has("enter");
         if (refracts)
             functions += ", " + function("enter") + ", " + function("leave") + ", " + function("transmit");
-        return fmt::format("{}<{}, {}, {}>", refracts ? "KernelRefraction" : "KernelReflection", constants_,
-                           functions, fmt::join(reads, " | "));
+        const bool is_glossy = has("highlight_width");
+        if (is_glossy) functions += ", " + function("highlight_width");
+        const char* const of = refracts    ? "KernelRefraction"
+                               : is_glossy ? "KernelGlossyReflection"
+                                           : "KernelReflection";
+        return fmt::format("{}<{}, {}, {}>", of, constants_, functions, fmt::join(reads, " | "));
     }
 
     std::string shading_class() const {

@@ -69,6 +69,7 @@ struct ExportStorage : ExportedGeometry {
         names;  // of shading and reflection models, in the registry
     std::vector<ExportedModel> light_models;
     std::vector<ExportedLight> lights;
+    std::vector<RenderLight> sources;                 // of the lights, which point into their radiance
     std::deque<std::vector<PunctualLight>> punctual;  // the lights point into it
     std::vector<ExportedShading> shadings;
     std::vector<ExportedReflection> reflections;

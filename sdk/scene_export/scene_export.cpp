@@ -67,6 +67,7 @@ class Exporter {
         for (const LightSource& light : scene_.lights) add(light);
         for (const Object& object : scene_.objects) add_models(object);
         for (const std::string& name : request_.extra_models) add_extra(name);
+        find_radiance();
         to_.objects.reserve(scene_.objects.size());
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) add(i);
         for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
@@ -191,11 +192,26 @@ class Exporter {
                               .casts_shadows = light.casts_shadows,
                               .ambient_occlusion_rays = light.ambient_occlusion.rays,
                               .ambient_occlusion_distance = light.ambient_occlusion.distance});
-        if (!source.data) return;
-        ExportedLight& to = to_.lights.back();
-        to.ambient = source.data->ambient;
-        to.punctual = to_.punctual.emplace_back(std::move(source.data->samples));
-        to.is_data = true;
+        if (source.data) {
+            ExportedLight& to = to_.lights.back();
+            to.ambient = source.data->ambient;
+            to.punctual = to_.punctual.emplace_back(std::move(source.data->samples));
+            to.is_data = true;
+        }
+        to_.sources.push_back(std::move(source));
+    }
+
+    /// Finds what glossy models mirror of the lights.
+    void find_radiance() {
+        if (std::ranges::none_of(to_.reflections, &ExportedReflection::is_glossy)) return;
+        for (std::size_t i = 0; i < to_.sources.size(); ++i) {
+            RenderLight& source = to_.sources[i];
+            source.find_radiance();
+            if (source.radiance == nullptr || source.radiance->density() <= 0) continue;
+            to_.lights[i].radiance = {.size = source.radiance->size(),
+                                      .density = source.radiance->density(),
+                                      .texels = source.radiance->texels()};
+        }
     }
 
     void add_shading(const std::string& name, const ParamSet& values) {
@@ -228,6 +244,10 @@ class Exporter {
         }
         exported.plugin = &model(PluginKind::reflection, name, {"reflect", "reflect_ambient"});
         exported.id = id_of(PluginKind::reflection, name);
+        // Without a kernel, the target's own model takes its place.
+        exported.is_glossy =
+            extension_of<GlossyReflection>(*instance) != nullptr &&
+            (exported.plugin->kernel.text == nullptr || has_function(*exported.plugin, "highlight_width"));
         keep_name(to_.reflections, *exported.plugin, PluginKind::reflection, name);
         put(to_.reflections, exported);
     }

@@ -8,6 +8,7 @@
 #include "candela/embed.h"
 #include "candela/kernel_language/lexer.h"
 #include "candela/target/kernels.h"
+#include "candela/target/mirror.h"
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
 #include "glsl_lights.h"
@@ -101,16 +102,26 @@ std::string own_material(const ExportedReflection& model, bool has_common) {
     return text;
 }
 
-std::string reflection_text(const ExportedReflection& model, bool has_shadows, bool is_textured,
+/// 0 for a model that does not say how wide its highlight is.
+std::string width_text(const ExportedReflection& model, const char* material) {
+    return fmt::format("float highlight_width() {{ return {}; }}\n",
+                       model.is_glossy ? fmt::format("clamp({}, 1.0e-4, 1.0)",
+                                                     call(model, "highlight_width",
+                                                          constants_name(model, "material", material), ""))
+                                       : "0.0");
+}
+
+std::string reflection_text(const ExportedReflection& model, const ExportedScene& scene, bool is_textured,
                             bool has_common) {
     const char* const material = is_textured ? "own_material" : "material";
     return fmt::format(
-        "{}\n{}{}{}{}{}Reflected reflect_light(Surface s, vec3 to_light) {{ return {}; }}\n"
+        "{}\n{}{}{}{}{}{}Reflected reflect_light(Surface s, vec3 to_light) {{ return {}; }}\n"
         "vec3 reflect_ambient(Surface s) {{ return {}; }}\n",
         model.plugin->kernel.text, uniform_of(model, "material"),
         is_textured ? own_material(model, has_common) : "",
         preparation_of(model, "material", "MATERIAL", material), needs_text(model),
-        has_shadows ? horizon_text(model) : "",
+        scene.has_shadows ? horizon_text(model) : "",
+        has_mirror_images(scene) ? width_text(model, material) : "",
         call(model, "reflect", constants_name(model, "material", material), "s, to_light"),
         call(model, "reflect_ambient", constants_name(model, "material", material), "s"));
 }
@@ -193,8 +204,7 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
                  if_shadows("    seen_side = facing * point.face_normal;\n    seen_facing = facing;\n")}});
     parts.lights = common_material(scene) + lights_text(scene);
     for (const auto& model : scene.reflections)
-        parts.reflections.push_back(
-            reflection_text(model, scene.has_shadows, is_textured, has_common_textures(scene)));
+        parts.reflections.push_back(reflection_text(model, scene, is_textured, has_common_textures(scene)));
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
     const bool needs_triangle = sees_triangles(scene);
     constexpr const char *k_triangle = "NEEDS_TRIANGLE", *k_texture = "TEXTURED",

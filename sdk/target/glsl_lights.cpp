@@ -14,11 +14,13 @@
 #include "candela/kernel_language/lexer.h"
 #include "candela/target/glsl.h"
 #include "candela/target/kernels.h"
+#include "candela/target/mirror.h"
 #include "candela/target/shadow_tree.h"
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
 
 CANDELA_EMBED(candela_target_shadows, CANDELA_TARGET_TEMPLATES "/shadows.glsl");
+CANDELA_EMBED(candela_target_mirror, CANDELA_TARGET_TEMPLATES "/mirror.glsl");
 CANDELA_EMBED(candela_target_sample_offsets, CANDELA_TARGET_TEMPLATES "/sample_offsets.glsl");
 CANDELA_EMBED(candela_target_extended_light, CANDELA_TARGET_TEMPLATES "/extended_light.glsl");
 CANDELA_EMBED(candela_target_ambient_occlusion, CANDELA_TARGET_TEMPLATES "/ambient_occlusion.glsl");
@@ -92,13 +94,18 @@ class LightLoopWriter {
           index_(model),
           model_(scene.light_models[model]),
           block_(block),
-          has_samples_(has_function(model_, "sample_count")) {}
+          has_samples_(has_function(model_, "sample_count")),
+          is_mirrored_(is_mirrored(scene, model)) {}
 
     LightLoop write() {
         LightLoop loop;
         loop.declarations = fmt::format("uniform int {};\n", block_.count);
         if (has_parameters(model_)) read_parameters(loop);
+        if (is_mirrored_)
+            body_ += "        RadianceMap radiance = radiance_map(" +
+                     texel_from_end(scene_.has_shadows ? 2 : 1) + ");\n";
         if (has_function(model_, "illuminate")) add_samples();
+        if (is_mirrored_) add_mirror_image();
         if (has_function(model_, "illuminate_ambient")) add_ambient();
         loop.statements = fmt::format("    for (int i = 0; i < {}; ++i) {{\n{}    }}\n", block_.count, body_);
         return loop;
@@ -151,14 +158,30 @@ class LightLoopWriter {
             line("    incident = punctual_light(source, r);");
             line("}");
         }
-        constexpr const char* k_reflected =
-            "reflected.diffuse * incident.diffuse + reflected.specular * incident.specular";
+        const char* const reflected =
+            is_mirrored_
+                ? "reflected.diffuse * incident.diffuse + reflected.specular * (own * incident.specular)"
+                : "reflected.diffuse * incident.diffuse + reflected.specular * incident.specular";
+        if (is_mirrored_)
+            line(
+                "float own = width > 0.0 ? highlight_share(light_density(radiance, radiance_place("
+                "incident.to_light)), s.normal, s.to_observer, incident.to_light, width) : 1.0;");
         if (scene_.has_shadows)
             line(fmt::format("float reached = can_be_blocked ? visible_part(r, incident, {}) : 1.0;",
                              distance()));
         line("Reflected reflected = reflect_light(s, incident.to_light);");
         line(fmt::format(fmt::runtime(scene_.has_shadows ? "sum += reached * ({});" : "sum += {};"),
-                         k_reflected));
+                         reflected));
+    }
+
+    void add_mirror_image() {
+        body_ += fmt::format(
+            "        for (int k = 0; k < mirror_samples() && width > 0.0; ++k) {{\n"
+            "            MirrorSample mirrored = mirror_sample(radiance, s.normal, s.to_observer, width, "
+            "k);\n"
+            "            sum += {}reflect_light(s, mirrored.to_light).specular * mirrored.intensity;\n"
+            "        }}\n",
+            has_occlusion(scene_) ? "own_occlusion * " : "");
     }
 
     void add_ambient() {
@@ -178,8 +201,9 @@ class LightLoopWriter {
     }
 
     /// The light's shadow_texel().
-    std::string shadow_settings() const {
-        return fmt::format("table_vec3({} + {} * i)", block_.first + block_.size - 1, block_.size);
+    std::string shadow_settings() const { return texel_from_end(1); }
+    std::string texel_from_end(std::size_t place) const {
+        return fmt::format("table_vec3({} + {} * i)", block_.first + block_.size - place, block_.size);
     }
 
     /// A call of a function for which describes() is true.
@@ -209,7 +233,7 @@ class LightLoopWriter {
     std::size_t index_;
     const ExportedModel& model_;
     const LightBlock& block_;
-    bool has_samples_;
+    bool has_samples_, is_mirrored_;
     std::string body_;
 };
 
@@ -245,11 +269,16 @@ std::string lights_text(const ExportedScene& scene) {
         statements += loop.statements;
         varies = varies || writer.varies();
     }
-    return text + declarations + shadows_text(scene, varies) +
+    std::string mirror;
+    const bool has_mirror = has_mirror_images(scene);
+    if (has_mirror)
+        mirror = filled(candela_target_mirror, {{"WIDTH", fmt::format("{}", k_radiance_width)}}) + "\n" +
+                 mirror_kernel() + "\nfloat highlight_width();\n";
+    return text + declarations + shadows_text(scene, varies) + mirror +
            "\nReflected reflect_light(Surface s, vec3 to_light);\nvec3 reflect_ambient(Surface s);\n\n"
            "// The sum of the ambient, diffuse and specular light at a point.\n"
            "vec3 lights_at(Surface s, Receiver r) {\n    vec3 sum = vec3(0.0);\n" +
-           statements + "    return sum;\n}\n";
+           (has_mirror ? "    float width = highlight_width();\n" : "") + statements + "    return sum;\n}\n";
 }
 
 std::vector<LightBlock> light_blocks(const ExportedScene& scene) {
@@ -264,6 +293,7 @@ std::vector<LightBlock> light_blocks(const ExportedScene& scene) {
             for (const std::size_t i : model.plugin->kernel.members)
                 size += texels_of(model.plugin->parameters[i].type);
         }
+        if (has_mirror_images(scene)) ++size;
         if (scene.has_shadows) ++size;
         blocks.push_back(
             {.count = light_name(model) + "_count", .lights = lights, .first = first, .size = size});

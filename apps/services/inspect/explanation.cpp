@@ -112,6 +112,7 @@ void Explanation::add_calls(const InspectedFragment& fragment, candela::Registry
                           .function = "normal",
                           .arguments = shading_point_and_triangle(point).all()})});
         for (const LightTrace& light : point.lights) {
+            if (light.sample == LightTrace::k_mirrored) continue;
             const candela::Model& model = scene.lights[light.light].model;
             const PluginDescriptor* const light_plugin = descriptor(PluginKind::light, model.name);
             const bool is_ambient = light.sample == LightTrace::k_ambient;
@@ -148,7 +149,7 @@ const std::vector<KernelValue>& Explanation::reflection_steps(const LightTrace& 
 
 bool Explanation::may_be_blocked(const LightTrace& light) const {
     const candela::LightSource& source = scene.lights[light.light];
-    if (!scene.shadows.enabled) return false;
+    if (!scene.shadows.enabled || light.sample == LightTrace::k_mirrored) return false;
     return light.sample == LightTrace::k_ambient ? source.ambient_occlusion.rays > 0 : source.casts_shadows;
 }
 
@@ -170,6 +171,7 @@ std::optional<double> Explanation::kernel_difference() const {
         for (const PointTrace& point : fragment.points) {
             const double scale = std::max({point.intensity.x, point.intensity.y, point.intensity.z, 1e-3f});
             for (const LightTrace& light : point.lights) {
+                if (light.sample == LightTrace::k_mirrored) continue;
                 const auto compare = [&](const KernelValue& value, Vec3 arriving, Vec3 reflected) {
                     if (value.numbers.size() != 3) return;
                     const std::array<double, 3> by_plugin{reflected.x, reflected.y, reflected.z};

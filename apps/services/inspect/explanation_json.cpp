@@ -59,6 +59,11 @@ Json json_of(const Explanation& e, const PointTrace& point, const LightTrace& li
              const std::string& reflection) {
     const candela::LightSource& source = e.scene.lights[light.light];
     Json result = {{"light", source.label.text()}, {"type", candela::shown_model_name(source.model.name)}};
+    if (light.sample == LightTrace::k_mirrored) {
+        result["mirrored"] = true;
+        result["I_s"] = json_of(light.reflected_specular);
+        return result;
+    }
     if (light.sample == LightTrace::k_ambient) {
         result["ambient"] = json_of(light.diffuse);
     } else {

@@ -213,7 +213,10 @@ class Writer {
         const bool is_ambient = light.sample == LightTrace::k_ambient;
         line(2,
              fmt::format("light {}, {}{}", source.label.text(), candela::shown_model_name(source.model.name),
-                         light.sample > 0 ? fmt::format(", sample {}", light.sample) : ""));
+                         light.sample == LightTrace::k_mirrored ? ", its mirror image in the highlight"
+                         : light.sample > 0                     ? fmt::format(", sample {}", light.sample)
+                                                                : ""));
+        if (light.sample == LightTrace::k_mirrored) return value(3, "I_s", light.reflected_specular);
         write_photometry(source);
         if (is_ambient) {
             write_visibility(light);

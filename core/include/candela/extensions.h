@@ -64,6 +64,17 @@ class CANDELA_EXPORT AllLightsReflection {
                                     const Vec3Span& intensity) const = 0;
 };
 
+/// A ReflectionModel that says how wide its highlight is, so that its surfaces mirror light from everywhere
+/// (SkySource) instead of showing its samples.
+class CANDELA_EXPORT GlossyReflection {
+  public:
+    virtual ~GlossyReflection();
+
+    /// Writes the width of each point's highlight, or of its narrowest: alpha of a GGX distribution that is
+    /// about as wide, above 0. It says where to look for light, not how much is reflected: reflect() does.
+    virtual void highlight_widths(const SurfaceBatch& surface, float* widths) const = 0;
+};
+
 /// The points at which rays leave an object from inside. World space.
 struct ExitBatch {
     Vec3Span position;

@@ -38,6 +38,16 @@ struct ExportedShading : ExportedModel {
 struct ExportedReflection : ExportedModel {
     SurfaceNeeds needs{};             // what its kernel reads of Surface
     bool shows_surroundings = false;  // it shows the world behind and around an object
+    bool is_glossy = false;  // its kernel has a function highlight_width: it mirrors ExportedLight::radiance
+};
+
+/// A light from everywhere, as seen in all directions; candela/kernel/mirror.kernel looks it up.
+struct ExportedRadianceMap {
+    int size = 0;       // texels per row of the finest level, a power of two; 0: there is none
+    float density = 0;  // samples of the light per intensity: their number over its integral
+    /// Red, green and blue of each texel, rows from the top, level after level, each half as wide and high as
+    /// the one before, down to a single texel.
+    std::span<const float> texels{};
 };
 
 struct ExportedLight {
@@ -48,6 +58,7 @@ struct ExportedLight {
                            // members
     std::span<const PunctualLight> punctual{};  // one per sample
     Rgb ambient{};                              // the part that comes from everywhere
+    ExportedRadianceMap radiance{};  // if it comes from everywhere, and a model of the scene is glossy
     // With ExportedScene::has_shadows:
     bool casts_shadows = true;       // objects block its samples
     int ambient_occlusion_rays = 0;  // per point, which find how much of its ambient part is blocked; or 0

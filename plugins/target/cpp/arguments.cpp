@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "candela/target/mirror.h"
 #include "objects.h"
 
 namespace candela::cpp_target {
@@ -64,7 +65,10 @@ std::string main_text(const ExportedScene& scene, const ShadingArgument& shading
                "lists them\");\n        }}\n"
                "        const std::string path = argc > 1 ? argv[1] : \"scene.png\";\n"
                "{}        std::vector<scene::Object> objects = scene::make_objects();\n",
-               most, scene.textures.empty() ? "" : "        scene::look_for_textures_at(argv[0]);\n") +
+               most,
+               std::string(scene.textures.empty() ? "" : "        scene::look_for_textures_at(argv[0]);\n") +
+                   (target::has_mirror_images(scene) ? "        scene::look_for_radiance_at(argv[0]);\n"
+                                                     : "")) +
            shading.statements(first) + reflection.statements(second) +
            "        for (scene::Object& o : objects) {\n            scene::place(o);\n            "
            "scene::find_normals(o);\n"

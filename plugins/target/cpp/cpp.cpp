@@ -17,6 +17,7 @@
 #include "candela/target/files.h"
 #include "candela/target/kernels.h"
 #include "candela/target/literals.h"
+#include "candela/target/mirror.h"
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
 #include "candela/target_plugin.h"
@@ -223,6 +224,22 @@ class CppWriter {
     /// Colours at vertices; empty in a program without them.
     std::string if_colors(const char* text) const { return objects_.has_vertex_colors() ? text : ""; }
 
+    static std::string radiance_functions() {
+        return std::string(radiance_file_source()) +
+               "\nstruct RadianceMap {\n    int first;  // of its texels\n    int size;\n    int "
+               "last_level;\n"
+               "    float density;\n};\n\n"
+               "inline int radiance_size(RadianceMap m, int level) { return m.size >> level; }\n"
+               "inline int radiance_last_level(RadianceMap m) { return m.last_level; }\n"
+               "inline vec3 radiance_texel(RadianceMap m, int level, int x, int y) {\n"
+               "    const int size = m.size >> level, at = m.first + (m.size * m.size - size * size) / 3 * 4 "
+               "+ y "
+               "* size + x;\n"
+               "    const float* const texel = &radiance_texels()[3 * static_cast<std::size_t>(at)];\n"
+               "    return vec3(texel[0], texel[1], texel[2]);\n}\n\n" +
+               mirror_kernel() + "\n";
+    }
+
     std::string model_kernels() const {
         std::string text;
         std::set<std::string> done;
@@ -232,6 +249,7 @@ class CppWriter {
             if (text.back() != '\n') text += '\n';
             text += '\n';
         };
+        if (has_mirror_images(scene_)) text += radiance_functions();
         for (const ExportedModel& model : models_of(scene_)) add(model);
         for (const ExportedModel& model : objects_.shape_models()) add(model);
         return text;
@@ -366,7 +384,16 @@ class CppWriter {
                         {{object.c_str(), "o"}, {"const Surface&", "s"}, {"vec3", "to_light"}},
                         reflection_choice(call_of("reflect", "s, to_light"))) +
                function("vec3", "reflected_ambient", {{object.c_str(), "o"}, {"const Surface&", "s"}},
-                        reflection_choice(call_of("reflect_ambient", "s")));
+                        reflection_choice(call_of("reflect_ambient", "s"))) +
+               (has_mirror_images(scene_)
+                    ? "// The width of a highlight; 0 for a model that does not say it.\n" +
+                          function("float", "highlight_width", {{object.c_str(), "o"}},
+                                   reflection_choice([&](const ExportedReflection& m) {
+                                       return m.is_glossy ? fmt::format("clamp({}, 1e-4f, 1.0f)",
+                                                                        call_of("highlight_width", "")(m))
+                                                          : std::string("0.0f");
+                                   }))
+                    : "");
     }
 
     std::string shading() const {
@@ -431,6 +458,7 @@ class CppTarget final : public Target {
     void write(const ExportedScene& scene, FileSink& files) const override {
         target::write(files, main_file(), CppWriter(scene).run());
         write_textures(scene, files);
+        write_radiance(scene, files);
         target::write(files, "CMakeLists.txt", candela_cpp_cmake);
         target::write(
             files, "README.md",

@@ -11,6 +11,7 @@
 
 #include "candela/target/kernels.h"
 #include "candela/target/literals.h"
+#include "candela/target/mirror.h"
 #include "candela/target/textures.h"
 #include "shadows.h"
 
@@ -19,6 +20,19 @@ namespace candela::cpp_target {
 using namespace target;
 
 namespace {
+
+/// The radiance maps of a model's lights.
+std::string radiance_of(const ExportedScene& scene, std::size_t model) {
+    std::string maps;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const ExportedRadianceMap& map = scene.lights[i].radiance;
+        if (scene.lights[i].model != model) continue;
+        maps += fmt::format("    {{{}, {}, {}, {}}},\n", first_radiance_texel(scene, i), map.size,
+                            last_radiance_level(map), float_text(map.density));
+    }
+    return fmt::format("const std::vector<RadianceMap> k_{}_radiance = {{\n{}}};\n\n",
+                       scene.light_models[model].plugin->kernel.prefix, maps);
+}
 
 std::string constants(const ExportedScene& scene) {
     std::string text;
@@ -37,6 +51,7 @@ std::string constants(const ExportedScene& scene) {
         text += has_parameters(model) ? fmt::format("const std::vector<{}> k_{}_lights = {{\n{}}};\n\n",
                                                     constants_type(model), kernel.prefix, entries)
                                       : fmt::format("const int k_{}_lights = {};\n\n", kernel.prefix, count);
+        if (is_mirrored(scene, m)) text += radiance_of(scene, m);
     }
     return text;
 }
@@ -63,6 +78,7 @@ class LightLoop {
             is_placed_ = is_placed_ || (casts && is_source);
         }
         has_occluded_objects_ = target::has_occlusion(scene);
+        is_mirrored_ = target::is_mirrored(scene, model);
         if (has_extents_) require("extent");
         if (has_function(model_, "distance")) {
             is_placed_ = true;
@@ -100,6 +116,13 @@ class LightLoop {
         } else if (has_function(model_, "illuminate")) {
             text += sample("        ", "");
         }
+        if (is_mirrored_)
+            text += fmt::format(
+                "        for (int k = 0; k < mirror_samples() && width > 0; ++k) {{\n"
+                "            const MirrorSample m = mirror_sample({}[n], s.normal, s.to_observer, width, "
+                "k);\n"
+                "            sum += {}reflected(o, s, m.to_light).specular * m.intensity;\n        }}\n",
+                named("radiance"), has_occluded_objects_ ? "o.occlusion * " : "");
         if (has_function(model_, "illuminate_ambient"))
             text +=
                 fmt::format("        sum += {}{}reflected_ambient(o, s) * {};\n",
@@ -126,7 +149,7 @@ class LightLoop {
         const std::string lights = named("lights");
         if (!has_parameters(model_)) return fmt::format("    for (int n = 0; n < {}; ++n) {{\n", lights);
         const std::string type = constants_type(model_);
-        if (!is_mixed() && !has_occlusion_)
+        if (!is_mixed() && !has_occlusion_ && !is_mirrored_)
             return fmt::format("    for (const {}& light : {}) {{\n", type, lights);
         return fmt::format(
             "    for (std::size_t n = 0; n < {0}.size(); ++n) {{\n        const {1}& light = {0}[n];\n",
@@ -151,15 +174,24 @@ class LightLoop {
         text +=
             fmt::format("{0}const Incident i = {1};\n{0}const Reflected f = reflected(o, s, i.to_light);\n",
                         indent, call(model_, "illuminate", "light", arguments(receiver)));
+        std::string own;
+        if (is_mirrored_) {
+            own = "own * ";
+            text += fmt::format(
+                "{0}const float own = width > 0 ? highlight_share(light_density({1}[n], "
+                "radiance_place(i.to_light)), s.normal, s.to_observer, i.to_light, width) : 1.0f;\n",
+                indent, named("radiance"));
+        }
         if (casting_ == 0)
-            return text + fmt::format("{}sum += f.diffuse * i.diffuse + f.specular * i.specular;\n", indent);
+            return text +
+                   fmt::format("{}sum += f.diffuse * i.diffuse + {}f.specular * i.specular;\n", indent, own);
         const std::string left = fmt::format("unblocked(at, i.to_light, {})", distance(receiver, arguments));
         return text + fmt::format(
-                          "{}const float left = {};\n{}sum += left * (f.diffuse * i.diffuse + f.specular * "
+                          "{}const float left = {};\n{}sum += left * (f.diffuse * i.diffuse + {}f.specular * "
                           "i.specular);\n",
                           indent,
                           is_mixed() ? fmt::format("{}[n] ? {} : 1.0f", named("casts_shadows"), left) : left,
-                          indent);
+                          indent, own);
     }
 
     template <class Arguments>
@@ -173,6 +205,7 @@ class LightLoop {
     const ExportedModel& model_;
     int casting_ = 0, others_ = 0;  // lights that cast shadows, and those that do not
     bool has_extents_ = false, has_occlusion_ = false;
+    bool is_mirrored_ = false;           // in highlights
     bool has_occluded_objects_ = false;  // by their materials
     bool is_placed_ = false;             // at a distance
 };
@@ -186,6 +219,7 @@ std::string flags(const ExportedScene& scene) {
 std::string loops(const ExportedScene& scene) {
     std::string text;
     for (std::size_t m = 0; m < scene.light_models.size(); ++m) text += LightLoop(scene, m).text();
+    if (has_mirror_images(scene)) text = "    const float width = highlight_width(o);\n" + text;
     return text.empty() ? "    (void)o, (void)s, (void)r;  // there are no lights\n" : text;
 }
 

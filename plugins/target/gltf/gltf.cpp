@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "candela/target/files.h"
+#include "candela/target/mirror.h"
 #include "candela/target/renderers.h"
 #include "candela/target/textures.h"
 #include "candela/target_plugin.h"
@@ -49,6 +50,7 @@ class Writer {
             files_.approximate(
                 "color_management = \"none\" becomes light that is added up linearly and encoded in the "
                 "picture");
+        target::approximate_mirror_images(scene_, files_);
         if (scene_.image.exposure != 1) files_.approximate("the exposure is left out");
         if (scene_.image.tone != ToneCurve::none) files_.approximate("the tone curve is left out");
         Json nodes = Json::array();

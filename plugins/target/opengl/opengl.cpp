@@ -15,6 +15,7 @@
 #include "candela/target/files.h"
 #include "candela/target/glsl.h"
 #include "candela/target/literals.h"
+#include "candela/target/mirror.h"
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
 #include "candela/target_plugin.h"
@@ -88,7 +89,13 @@ class OpenGlWriter {
             {"OBJECTS", objects},
             {"COMMON_MEMBERS", common_members()},
             {"SET_COMMON", set_common()},
-            {"PICTURE_FILE", std::string(image_file_source())}};
+            {"PICTURE_FILE", std::string(image_file_source())},
+            {"RADIANCE", if_mirrors(radiance_text())},
+            {"FIND_RADIANCE", if_mirrors("        look_for_radiance_at(argv[0]);\n")},
+            {"BIND_RADIANCE",
+             if_mirrors("        glActiveTexture(GL_TEXTURE4);\n        radiance_texture();\n")},
+            {"SET_RADIANCE",
+             if_mirrors("        set(program, {\"radiance_texels\", Uniform::whole, {4, 0, 0}});\n")}};
         const Values shadows = shadow_values(scene_);
         for (const Values& more : {about, texture_values(scene_, glsl), shadows, layer_values(scene_)})
             values.insert(values.end(), more.begin(), more.end());
@@ -98,6 +105,7 @@ class OpenGlWriter {
         write(files, "CMakeLists.txt", candela_opengl_cmake);
         write(files, "README.md", filled(candela_opengl_readme, views_of(values)));
         write_textures(scene_, files);
+        write_radiance(scene_, files);
     }
 
   private:
@@ -107,6 +115,19 @@ class OpenGlWriter {
         "                put(12 + corner, vector(mesh.normals[normals], v[corner]));\n"
         "            }\n";
     const char* if_triangles(const char* text) const { return sees_triangles(scene_) ? text : ""; }
+    std::string if_mirrors(std::string text) const {
+        return has_mirror_images(scene_) ? std::move(text) : "";
+    }
+    static std::string radiance_text() {
+        return std::string(radiance_file_source()) +
+               fmt::format(
+                   "\n// The texels as a texture, in rows of this width.\nGLuint radiance_texture() {{\n"
+                   "    const std::size_t width = {};\n"
+                   "    return data_texture(GL_RGB32F, width, radiance_texels().size() / (3 * width), "
+                   "GL_RGB, "
+                   "GL_FLOAT, radiance_texels().data());\n}}\n\n",
+                   k_radiance_width);
+    }
     bool is_textured() const { return !scene_.textures.empty(); }
 
     template <class Model, class RateOf>
@@ -208,6 +229,11 @@ class OpenGlWriter {
                     for (const std::string& texel : texels(plugin.parameters[i], light.values.runtime[i]))
                         text += fmt::format("    {},\n", texel);
                 }
+                if (has_mirror_images(scene_))
+                    text += fmt::format(
+                        "    {},\n",
+                        vector("radiance", radiance_place(scene_, static_cast<std::size_t>(
+                                                                      &light - scene_.lights.data()))));
                 if (scene_.has_shadows)
                     text += fmt::format("    {},\n", vector("shadows", shadow_texel(light)));
             }

@@ -34,7 +34,7 @@ constexpr const char* k_put_edges =
     "            }\n";
 
 constexpr const char* k_load =
-    "        glActiveTexture(GL_TEXTURE4);\n"
+    "        glActiveTexture(GL_TEXTURE6);\n"
     "        for (const char* const file : k_textures) textures_.push_back(make_texture(file));\n";
 
 constexpr const char* k_members =

@@ -15,6 +15,7 @@
 #include "candela/target/files.h"
 #include "candela/target/literals.h"
 #include "candela/target/mean_materials.h"
+#include "candela/target/mirror.h"
 #include "candela/target/renderers.h"
 #include "candela/target/text_template.h"
 #include "candela/target_plugin.h"
@@ -51,6 +52,7 @@ std::string camera_text(const ExportedScene& scene) {
 
 std::string scene_text(const ExportedScene& scene, FileSink& files) {
     const auto color = decoded(scene.image.background, scene.image.color_management);
+    target::approximate_mirror_images(scene, files);
     if (scene.has_shadows) approximate_shadows(scene, files);
     std::string meshes;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) meshes += mesh_text(scene, i, files);

@@ -15,6 +15,7 @@
 #include "candela/target/arrays.h"
 #include "candela/target/glsl.h"
 #include "candela/target/kernels.h"
+#include "candela/target/mirror.h"
 #include "candela/target/renderers.h"
 #include "candela/target/shadow_tree.h"
 #include "candela/target/textures.h"
@@ -83,6 +84,10 @@ class Writer {
             {"lights", lights.value_or(Json::array())},
             {"objects", std::move(objects)}};
         if (scene_.has_shadows) json["shadows"] = shadows_json();
+        if (has_mirror_images(scene_))
+            json["radiance"] = {
+                {"width", k_radiance_width},
+                {"texels", arrays_.put(std::as_bytes(std::span<const float>(radiance_texels(scene_))))}};
         return json;
     }
 

@@ -3,6 +3,7 @@
 #include <bit>
 
 #include "candela/target/glsl.h"
+#include "candela/target/mirror.h"
 
 namespace candela::three_target {
 
@@ -89,6 +90,9 @@ std::vector<std::int32_t> light_table(const ExportedScene& scene) {
             if (light.model != m) continue;
             for (const std::size_t i : plugin.kernel.members)
                 texels.add(plugin.parameters[i], light.values.runtime[i]);
+            if (target::has_mirror_images(scene))
+                texels.add(
+                    target::radiance_place(scene, static_cast<std::size_t>(&light - scene.lights.data())));
             if (scene.has_shadows) texels.add(target::shadow_texel(light));
         }
     }

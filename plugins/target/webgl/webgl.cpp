@@ -18,6 +18,7 @@
 #include "candela/target/files.h"
 #include "candela/target/glsl.h"
 #include "candela/target/literals.h"
+#include "candela/target/mirror.h"
 #include "candela/target/page_arrays.h"
 #include "candela/target/page_image.h"
 #include "candela/target/shadow_tree.h"
@@ -66,14 +67,25 @@ bool is_adjustable(const ParamSpec& p) {
            p.type != ParamType::numbers;
 }
 
+/// A value in the form for shaders.
+Json uniform_json(const ParamSpec& p, const ParamValue& value) {
+    if (p.type == ParamType::real) return {{"kind", "float"}, {"value", value.number[0]}};
+    if (p.type == ParamType::integer || p.type == ParamType::boolean || p.type == ParamType::choice)
+        return {{"kind", "int"}, {"value", value.integer}};
+    return {{"kind", "vec3"}, {"value", {value.number[0], value.number[1], value.number[2]}}};
+}
+
 /// The values that kernels read and the page cannot change: { name: { kind, value } }, in the form for
-/// shaders.
-Json fixed_json(const ExportedModel& model, const ExportedValues& values) {
+/// shaders. `are_all_fixed`: those that it usually can, too.
+Json fixed_json(const ExportedModel& model, const ExportedValues& values, bool are_all_fixed = false) {
     Json result = Json::object();
     for (const std::size_t i : model.plugin->kernel.members) {
         const ParamSpec& p = model.plugin->parameters[i];
         const ParamValue& value = values.runtime[i];
-        if (is_adjustable(p)) continue;
+        if (is_adjustable(p)) {
+            if (are_all_fixed) result[p.name] = uniform_json(p, value);
+            continue;
+        }
         if (p.type == ParamType::matrix) {
             Json columns = Json::array();
             for (const Vec3& c : columns_of(value)) columns.insert(columns.end(), {c.x, c.y, c.z});
@@ -303,10 +315,14 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
     Json light_models = Json::object(), reflections = Json::object(), shadings = Json::object();
     for (const ExportedLight& light : scene.lights) {
         const ExportedModel& model = scene.light_models[light.model];
+        // Its mirror image does not follow.
+        const bool is_kept = is_mirrored(scene, light.model);
         lights.push_back({{"label", light.label},
                           {"model", model.plugin->name},
-                          {"values", values_json(model, light.values)},
-                          {"fixed", fixed_json(model, light.values)}});
+                          {"values", is_kept ? Json::object() : values_json(model, light.values)},
+                          {"fixed", fixed_json(model, light.values, is_kept)}});
+        if (has_mirror_images(scene))
+            lights.back()["radiance"] = vector_json(radiance_place(scene, lights.size() - 1));
         if (scene.has_shadows) lights.back()["shadows"] = vector_json(shadow_texel(light));
     }
     const std::vector<LightBlock> blocks = light_blocks(scene);
@@ -314,6 +330,7 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
         const ExportedModel& model = scene.light_models[i];
         Json& json = light_models[model.plugin->name] = model_json(model, model.plugin->kernel.text);
         json["block"] = block_json(model, blocks[i]);
+        if (is_mirrored(scene, i)) json["parameters"] = Json::array();
     }
     for (std::size_t i = 0; i < scene.reflections.size(); ++i) {
         Json& json = reflections[scene.reflections[i].plugin->name] =
@@ -358,6 +375,10 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
                  {"shading_models", std::move(shadings)},
                  {"objects", std::move(objects)}};
     if (scene.has_shadows) json["shadows"] = shadows_json(scene, arrays);
+    if (has_mirror_images(scene))
+        json["radiance"] = {
+            {"width", k_radiance_width},
+            {"texels", arrays.put(std::as_bytes(std::span<const float>(radiance_texels(scene))))}};
     json["arrays"] = arrays.names();
     return json;
 }

@@ -189,6 +189,7 @@ TEST_CASE("the kit names the fault of each faulty plugin, and its exit code is 4
         {"light-dims-for-shadows", "distance", "failed", "if it is asked for its distance"},
         {"light-spreads-without-end", "distance", "failed", "the extent of sample 0 is not finite"},
         {"reflection-forgets-a-light", "in one go", "failed", "reflect_all_lights returns"},
+        {"reflection-misjudges-its-highlight", "highlight width", "failed", "its highlight reflects"},
         {"reflection-same-parameters-everywhere", "varying", "failed", "with parameters of its own"},
         {"reflection-one-color-for-all", "colours", "failed", "where the surface has that colour"},
         {"reflection-hasty-at-the-end", "bounds", "failed",

@@ -3,9 +3,16 @@
 //     Reflected x_reflect(XMaterial m, Surface s, vec3 to_light)
 //     vec3 x_reflect_ambient(XMaterial m, Surface s)
 //
-// They return the factors for a light's intensities and for the ambient intensity. A model in a .kernel file
+// They return the factors for a light's intensities and for the ambient intensity. A model that mirrors light
+// from everywhere, such as a panorama, also says how wide its highlight is, as alpha of a GGX distribution:
+//
+//     float x_highlight_width(XMaterial m)
+//
+// A model in a .kernel file
 // is a KernelReflection; so is a model whose parameters need C++, which ends with CANDELA_KERNEL_PLUGIN.
 #pragma once
+
+#include <algorithm>
 
 #include "candela/extensions.h"
 #include "candela/kernel/simd_dispatch.h"
@@ -258,6 +265,20 @@ struct ReflectPunctualLoop {
     }
 };
 
+template <class Materials, auto highlight_width>
+struct HighlightWidthLoop {
+    CANDELA_KERNEL_INLINE static void find(const auto& materials, std::size_t count, float* widths) {
+        CANDELA_VECTORIZE
+        for (std::size_t i = 0; i < count; ++i) widths[i] = call<highlight_width>(materials[i]);
+    }
+
+    CANDELA_BATCH_LOOP static void run(Materials materials, std::size_t count, float* widths) {
+        typename Materials::Pass pass;
+        for (std::size_t first = 0; first < count; first += k_pass_size)
+            find(materials.pass(first, pass), std::min(k_pass_size, count - first), widths + first);
+    }
+};
+
 template <class Model, class Params, class Preparation, const auto& fields>
 class VaryingReflection;
 
@@ -323,6 +344,8 @@ class KernelReflection : public ReflectionModel, public AllLightsReflection {
             store(intensity, i, load(rest, i - passes.whole()));
     }
 
+    const UniformMaterial<Material>& material() const noexcept { return material_; }
+
   private:
     UniformMaterial<Material> material_;
 };
@@ -330,7 +353,7 @@ class KernelReflection : public ReflectionModel, public AllLightsReflection {
 /// `Model`, a KernelReflection, with its parameters: where a batch has varying ones, it evaluates the kernel
 /// with those of each point.
 template <class Model, class Params, class Preparation, const auto& fields>
-class VaryingReflection final : public Model {
+class VaryingReflection : public Model {
   public:
     static constexpr SurfaceNeeds k_needs = [] {
         SurfaceNeeds needs = Model::k_needs;
@@ -361,13 +384,61 @@ class VaryingReflection final : public Model {
         Model::reflect_all_lights_with(materials(surface, numbers), surface, lighting, intensity);
     }
 
-  private:
+  protected:
     VaryingMaterials<Params, Preparation> materials(const SurfaceBatch& surface,
                                                     const std::vector<VaryingNumber>& numbers) const {
         return {params_, numbers.data(), numbers.size(), surface.count};
     }
 
+  private:
     Params params_;
+};
+
+template <class Model, class Params, class Preparation, const auto& fields>
+class VaryingGlossyReflection;
+
+/// A KernelReflection whose kernel also has a function `highlight_width`.
+template <class Material, auto reflect_, auto reflect_ambient_, auto highlight_width_,
+          SurfaceReads reads = reads_no_more>
+class KernelGlossyReflection : public KernelReflection<Material, reflect_, reflect_ambient_, reads>,
+                               public GlossyReflection {
+    using Reflection = KernelReflection<Material, reflect_, reflect_ambient_, reads>;
+
+  public:
+    static constexpr KernelFunction k_kernel_functions[] = {
+        kernel_function<Material, reflect_>("reflect"),
+        kernel_function<Material, reflect_ambient_>("reflect_ambient"),
+        kernel_function<Material, highlight_width_>("highlight_width")};
+
+    template <class Params, class Preparation, const auto& fields>
+    using Varying = VaryingGlossyReflection<KernelGlossyReflection, Params, Preparation, fields>;
+
+    explicit KernelGlossyReflection(const Material& material) : Reflection(material) {}
+
+    void highlight_widths(const SurfaceBatch& surface, float* widths) const override {
+        find_widths(this->material(), surface.count, widths);
+    }
+
+  protected:
+    template <class Materials>
+    static void find_widths(const Materials& materials, std::size_t count, float* widths) {
+        multiversion<HighlightWidthLoop<Materials, highlight_width_>>(materials, count, widths);
+    }
+};
+
+/// `Model`, a KernelGlossyReflection, like VaryingReflection.
+template <class Model, class Params, class Preparation, const auto& fields>
+class VaryingGlossyReflection final : public VaryingReflection<Model, Params, Preparation, fields> {
+    using Reflection = VaryingReflection<Model, Params, Preparation, fields>;
+
+  public:
+    explicit VaryingGlossyReflection(const Params& params) : Reflection(params) {}
+
+    void highlight_widths(const SurfaceBatch& surface, float* widths) const override {
+        if (surface.varying.empty()) return Model::highlight_widths(surface, widths);
+        const std::vector<VaryingNumber> numbers = varying_numbers(fields, surface.varying);
+        Model::find_widths(this->materials(surface, numbers), surface.count, widths);
+    }
 };
 
 }  // namespace candela::sdk

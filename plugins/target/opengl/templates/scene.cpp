@@ -239,6 +239,7 @@ GLuint data_texture(GLint format, std::size_t width, std::size_t height, GLenum 
 }
 
 @TABLES@
+@RADIANCE@
 @TEXTURES@
 @SHADOWS@
 // The lights' values as a texture that shaders read, a texel each, in rows of this width.
@@ -356,6 +357,7 @@ class Renderer {
         glActiveTexture(GL_TEXTURE2);  // passes over the screen use the first two
         light_table();
 @BIND_TABLES@
+@BIND_RADIANCE@
 @BIND_SHADOWS@
 @LOAD_TEXTURES@
         glActiveTexture(GL_TEXTURE0);
@@ -456,6 +458,7 @@ class Renderer {
         glUseProgram(program);
         set(program, {"light_table", Uniform::whole, {2, 0, 0}});
 @SET_TABLES@
+@SET_RADIANCE@
 @SET_SHADOW_TREE@
         for (const Uniform& u : k_light_counts) set(program, u);
         return program;
@@ -679,6 +682,7 @@ void run(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
     try {
 @FIND_TEXTURES@
+@FIND_RADIANCE@
         run({argv + 1, argv + argc});
         return 0;
     } catch (const std::exception& problem) {

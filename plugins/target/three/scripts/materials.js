@@ -1,5 +1,5 @@
 import { Color, DataTexture, DoubleSide, FloatType, FrontSide, GLSL3, IntType, Matrix4, MeshLambertMaterial, NearestFilter, RawShaderMaterial,
-    RedFormat, RGBAIntegerFormat, UnsignedShortType, Vector3 } from "three";
+    RedFormat, RGBAFormat, RGBAIntegerFormat, UnsignedShortType, Vector3 } from "three";
 import { bytesOf } from "../../../../sdk/web/arrays.js";
 import { shadowTexels } from "../../../../sdk/web/shadow_tree.js";
 import { levelsOf, sizeWithLevels } from "../../../../sdk/web/texture_levels.js";
@@ -20,6 +20,14 @@ function tableTexture(Type, bytes, components, width, ...formats) {
     const texels = new Type(components * width * height);
     texels.set(numbers);
     return dataTexture(texels, width, height, ...formats);
+}
+
+/** The maps of lights that highlights mirror; three.js has no textures of three channels. */
+function radianceTexture({ texels, width }) {
+    const numbers = new Float32Array(bytesOf(texels).buffer), height = Math.ceil(numbers.length / 3 / width);
+    const all = new Float32Array(4 * width * height);
+    for (let i = 0; i < numbers.length; ++i) all[4 * Math.floor(i / 3) + (i % 3)] = numbers[i];
+    return dataTexture(all, width, height, RGBAFormat, FloatType, "RGBA32F");
 }
 
 /** The uniforms with which shaders find out whether light is blocked; none in a scene without shadows. */
@@ -66,6 +74,7 @@ export class KernelMaterials {
         this.lights = Object.fromEntries(Object.entries(json.light_counts).map(([name, value]) => [name, { value }]));
         this.lights.light_table = { value: tableTexture(Int32Array, bytesOf(json.light_table), 4, json.light_table_width, RGBAIntegerFormat, IntType, "RGBA32I") };
         this.lights.table_numbers = { value: tableTexture(Float32Array, bytesOf(json.tables), 1, json.table_width, RedFormat, FloatType, "R32F") };
+        if (json.radiance) this.lights.radiance_texels = { value: radianceTexture(json.radiance) };
         this.shadows = shadowUniforms(json);
         this.mostPictures = Math.max(0, ...json.objects.map((object) => object.material_pictures.length));
         this.textures = json.textures.map((picture) => pictureOf(picture, json.image.is_srgb));

@@ -39,15 +39,15 @@ function modelUniforms(settings, model, prefix, fixed, struct, isSrgb) {
     return [...adjustable, ...Object.entries(fixed).flatMap(([name, value]) => fixedUniforms(`${struct}.${name}`, value))];
 }
 
-/** The members of a light's struct, in their order: a value for each texel. In a scene with shadows, they end with the light's. */
-function structMembers(settings, model, prefix, { fixed, shadows }, isSrgb) {
+/** The members of a light's struct, in their order: a value for each texel. In a scene with mirror images or shadows, they end with the light's. */
+function structMembers(settings, model, prefix, { fixed, radiance, shadows }, isSrgb) {
     const members = model.block.members.flatMap((name) => {
         const parameter = model.parameters.find((p) => p.name === name);
         if (parameter) return [toUniform(parameter, settings.get(prefix + name), isSrgb)];
         const { kind, value } = fixed[name];
-        return kind === "mat3" ? [0, 3, 6].map((i) => ({ kind: "vec3", value: value.slice(i, i + 3) })) : [{ kind: "int", value }];
+        return kind === "mat3" ? [0, 3, 6].map((i) => ({ kind: "vec3", value: value.slice(i, i + 3) })) : [{ kind: kind === "table" ? "int" : kind, value }];
     });
-    return shadows ? [...members, { kind: "vec3", value: shadows }] : members;
+    return [...members, ...[radiance, shadows].filter((texel) => texel).map((value) => ({ kind: "vec3", value }))];
 }
 
 /** The values of an object's material that a reflection model reads, whether or not it is the object's own model. */

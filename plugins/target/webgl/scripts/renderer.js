@@ -2,6 +2,7 @@ import { clippingPlanes, lineOfSight, pixelSize, viewAxes, viewProjection } from
 import { Film } from "./film.js";
 import { LightTable } from "./lights.js";
 import { Mesh } from "./mesh.js";
+import { Radiance } from "./radiance.js";
 import { ProgramCache } from "../../../../sdk/web/programs.js";
 import { Shadows } from "./shadows.js";
 import { Tables } from "./tables.js";
@@ -13,6 +14,7 @@ const LIGHTS_UNIT = 2;  // passes over all pixels use the first two
 const TABLES_UNIT = 3;
 const SHADOWS_UNIT = 5;
 const MATERIAL_UNIT = 6;  // and those after it
+const RADIANCE_UNIT = 4;
 
 /** Turns an appearance (observer, lights, objects) into pixels: one pass per sample, their weighted sum, its encoding. */
 export class Renderer {
@@ -30,6 +32,7 @@ export class Renderer {
         for (const texture of this.textures) texture.users += 1;
         this.mostPictures = Math.max(0, ...scene.objects.map((object) => object.material_pictures.length));
         this.shadows = this.shadowsOf(scene, previous);
+        this.radiance = this.radianceOf(scene, previous);
         this.bounds = this.meshes.map((mesh) => mesh.bounds);
         this.lights = new LightTable(gl, scene);
         this.tables = new Tables(gl, scene);
@@ -45,6 +48,7 @@ export class Renderer {
     release() {
         for (const one of [...this.meshes, ...this.textures]) one.release();
         this.shadows?.release();
+        this.radiance?.release();
         this.lights.release();
         this.tables.release();
         this.programs.release();
@@ -57,6 +61,14 @@ export class Renderer {
         const shadows = previous?.shadows?.isOf(scene) ? previous.shadows : new Shadows(this.gl, scene);
         shadows.users += 1;
         return shadows;
+    }
+
+    /** Null if nothing mirrors a light. */
+    radianceOf(scene, previous) {
+        if (!scene.radiance) return null;
+        const radiance = previous?.radiance?.isOf(scene.radiance) ? previous.radiance : new Radiance(this.gl, scene.radiance);
+        radiance.users += 1;
+        return radiance;
     }
 
     chooseFloatFormat() {
@@ -121,6 +133,7 @@ export class Renderer {
             ...this.lights.bind(LIGHTS_UNIT, appearance.lights),
             ...this.bindTables(),
             ...this.shadows?.bind(SHADOWS_UNIT),
+            ...this.radiance?.bind(RADIANCE_UNIT),
             picture_height: { kind: "int", value: film.height },
             line_of_sight: { kind: "vec3", value: lineOfSight(observer, film.width, film.height, position) },
         };
