@@ -78,6 +78,7 @@ struct ExportStorage : ExportedGeometry {
     std::deque<std::shared_ptr<const MipMap>> mip_maps;  // the textures point into it
     std::deque<std::vector<ExportedTextureLevel>> levels;
     std::vector<ExportedTexture> textures;
+    std::vector<const char*> left_out;
     ExportedScene scene;
 
     // Of the mesh that was last requested:

@@ -413,7 +413,7 @@ class Exporter {
             refuse("emits light", "remove 'emission' from its material");
         if ((common.occlusion != 1 || common.has_texture("occlusion")) && !request_.abilities.occlusion)
             refuse("has an occlusion of ambient light", "remove 'occlusion' from its material");
-        if (common.is_see_through() && !request_.abilities.opacity)
+        if (common.is_see_through() && !request_.abilities.opacity && !request_.leaves_out)
             refuse("is not opaque", "remove 'opacity' from its material");
     }
 
@@ -455,6 +455,7 @@ class Exporter {
         }
         for (const ParameterTexture& texture : object.common.textures) {
             const Parameter& parameter = material_parameter(texture.parameter);
+            if (texture.parameter == "opacity" && !request_.abilities.opacity) continue;
             if (texture.parameter == "opacity") {
                 const PlacedTexture placed{{}, nullptr, texture.wrap, texture.transform};
                 of_opacity.add_common(texture, placed);
@@ -486,7 +487,11 @@ class Exporter {
         auto& own = to_.objects.emplace_back();
         own.tessellator = made<Shape>(object.shape.name, object.shape.parameters);
         own.transform = object.transform;
-        own.encloses = object.encloses || object.common.is_see_through();
+        const bool has_opacity = request_.abilities.opacity && object.common.is_see_through();
+        if (object.common.is_see_through() && !has_opacity)
+            to_.left_out.push_back(
+                kept(fmt::format("the opacity of object {} is left out", name_in(object.label))));
+        own.encloses = object.encloses || has_opacity;
         ExportedObject exported{
             .label = kept(name_in(object.label)),
             .color = object.color,
@@ -499,8 +504,8 @@ class Exporter {
             .emission = object.common.emission,
             .emission_strength = object.common.emission_strength,
             .occlusion = object.common.occlusion,
-            .opacity = object.common.opacity,
-            .opacity_cutoff = object.common.opacity_cutoff,
+            .opacity = has_opacity ? object.common.opacity : 1,
+            .opacity_cutoff = has_opacity ? object.common.opacity_cutoff : 0,
             .casts_shadows = object.casts_shadows,
             .receives_shadows = object.receives_shadows,
             .transmits_light = object.transmits_light};
@@ -558,5 +563,6 @@ SceneExport& SceneExport::operator=(SceneExport&&) noexcept = default;
 SceneExport::~SceneExport() = default;
 
 const ExportedScene& SceneExport::scene() const noexcept { return storage_->scene; }
+std::span<const char* const> SceneExport::left_out() const noexcept { return storage_->left_out; }
 
 }  // namespace candela

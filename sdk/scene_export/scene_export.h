@@ -29,7 +29,8 @@ struct ExportRequest {
     std::string title{};
     TargetAbilities abilities{};  // the target's
     ExtraModels extra_models{};
-    WithModel with_model{};  // if empty, extra models have their defaults
+    WithModel with_model{};   // if empty, extra models have their defaults
+    bool leaves_out = false;  // opacity, if the target has none: objects are opaque
 };
 
 /// An ExportedScene and all its memory.
@@ -43,6 +44,8 @@ class SceneExport {
     ~SceneExport();
 
     const ExportedScene& scene() const noexcept;
+    /// Sentences for FileSink::approximate() about the parts that are left out (see ExportRequest).
+    std::span<const char* const> left_out() const noexcept;
 
   private:
     struct Storage;

@@ -47,7 +47,7 @@ std::optional<SceneToExport> scene_to_export(const CommandLine& line, candela::R
 
 candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport& scene,
                                 const CommandLine& line, candela::Registry& registry) {
-    candela::ExportRequest request{.title = scene.title, .abilities = target.abilities()};
+    candela::ExportRequest request{.title = scene.title, .abilities = target.abilities(), .leaves_out = true};
     if (line.has("models")) {
         request.extra_models = words_of(line.get<std::string>("models"));
         std::erase(request.extra_models, "");
@@ -73,6 +73,8 @@ candela::SceneExport export_for(const LoadedTarget& target, const SceneToExport&
 candela::ExportedProgram program_for(const LoadedTarget& target, const candela::SceneExport& exported,
                                      const CommandLine& line) {
     candela::ExportedProgram program = target.program_of(exported.scene());
+    program.approximations.insert(program.approximations.begin(), exported.left_out().begin(),
+                                  exported.left_out().end());
     if (!program.approximations.empty() && !line.has("approximate"))
         throw Error(ErrorCategory::failure,
                     fmt::format("target/{} can only approximate this scene; --approximate accepts this: {}",
