@@ -142,7 +142,6 @@ std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
         document_.use_extension("KHR_materials_unlit");
     }
     maps_.add_color(object, material);
-    maps_.add_opacity(object, material);
     maps_.add_normals(object, material);
     if (is_unlit && target::emission_of(object, scene_.image.color_management) != Rgb{})
         files_.approximate("what an unlit material emits is left out by programs that show the file");

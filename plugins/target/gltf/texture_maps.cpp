@@ -81,7 +81,8 @@ constexpr TextureMaps::Map k_maps[] = {
 
 constexpr Channel k_color[] = {{"color", 0, 0, "baseColorFactor"},
                                {"color", 1, 1, "baseColorFactor"},
-                               {"color", 2, 2, "baseColorFactor"}};
+                               {"color", 2, 2, "baseColorFactor"},
+                               {"opacity", 0, 3, "baseColorFactor"}};
 constexpr Channel k_emission[] = {{"emission", 0, 0, "emissiveFactor"},
                                   {"emission", 1, 1, "emissiveFactor"},
                                   {"emission", 2, 2, "emissiveFactor"}};
@@ -106,12 +107,6 @@ std::optional<Json> transform_json(const float (&placing)[6]) {
     return Json{{"offset", {rounded(m[2] - s * height), rounded(1 - c * height - m[5])}},
                 {"rotation", rounded(angle)},
                 {"scale", {rounded(width), rounded(height)}}};
-}
-
-/// Whether it is placed as textures of colours are.
-bool is_as_colors(const ExportedTexturedNumber& number) {
-    constexpr float k_everywhere[] = {1, 0, 0, 0, 1, 0};
-    return std::ranges::equal(number.placing, k_everywhere);
 }
 
 bool is_placed_like(const ExportedTexturedNumber& a, const ExportedTexturedNumber& b) {
@@ -231,22 +226,32 @@ Json TextureMaps::info_of(std::size_t image, bool repeats, const float (&placing
     return info;
 }
 
-TextureMaps::Picture TextureMaps::picture_of(const Map& map,
-                                             std::span<const ExportedTexturedNumber> numbers) {
-    std::vector<Source> sources;
-    for (const ExportedTexturedNumber& number : numbers)
-        sources.push_back({.channel = &map.channels[number.channel], .number = &number});
-    const auto picture = file_of(map, sources);
-    return picture ? *picture : baked(map, sources);
-}
-
 void TextureMaps::add_color(const ExportedObject& object, Json& material) {
-    if (object.color_numbers.empty()) return;
-    const Picture picture = picture_of(k_color_map, object.color_numbers);
     Json& pbr = material["pbrMetallicRoughness"];
+    std::span<const ExportedTexturedNumber> opacity;
+    if (object.is_see_through()) {
+        material["alphaMode"] = object.opacity_cutoff > 0 ? "MASK" : "BLEND";
+        if (object.opacity_cutoff > 0) material["alphaCutoff"] = object.opacity_cutoff;
+        pbr["baseColorFactor"][3] = object.opacity;
+        opacity = object.opacity_numbers;
+    }
+    const std::span<const ExportedTexturedNumber> color = object.color_numbers;
+    if (color.empty() && opacity.empty()) return;
+    const ExportedTexturedNumber& placed = color.empty() ? opacity.front() : color.front();
+    std::vector<Source> sources;
     for (std::size_t c = 0; c < 3; ++c)
+        sources.push_back({.channel = &k_color[c], .number = color.empty() ? nullptr : &color[c], .mean = 1});
+    if (!opacity.empty()) {
+        if (!is_placed_like(opacity.front(), placed))
+            files_.approximate(
+                fmt::format("the opacity of object {} is placed like its colour", object.label).c_str());
+        sources.push_back({.channel = &k_color[3], .number = &opacity.front()});
+    }
+    const auto file = file_of(k_color_map, sources);
+    const Picture picture = file ? *file : baked(k_color_map, sources);
+    for (std::size_t c = 0; c < 3 && !color.empty(); ++c)
         pbr["baseColorFactor"][c] = picture.highest[c] * pbr["baseColorFactor"][c].get<float>();
-    const ExportedTexturedNumber& placed = object.color_numbers.front();
+    if (!opacity.empty()) pbr["baseColorFactor"][3] = picture.highest[3];
     pbr["baseColorTexture"] = info_of(picture.image, placed.repeats, placed.placing);
 }
 
@@ -255,7 +260,11 @@ void TextureMaps::add_emission(const ExportedObject& object, Json& material) {
     if (emission == Rgb{}) return;
     std::array<float, 3> factor{emission.r, emission.g, emission.b};
     if (!object.emission_numbers.empty()) {
-        const Picture picture = picture_of(k_emission_map, object.emission_numbers);
+        std::vector<Source> sources;
+        for (std::size_t c = 0; c < 3; ++c)
+            sources.push_back({.channel = &k_emission[c], .number = &object.emission_numbers[c]});
+        const auto file = file_of(k_emission_map, sources);
+        const Picture picture = file ? *file : baked(k_emission_map, sources);
         for (std::size_t c = 0; c < 3; ++c) factor[c] *= picture.highest[c];
         const ExportedTexturedNumber& placed = object.emission_numbers.front();
         material["emissiveTexture"] = info_of(picture.image, placed.repeats, placed.placing);
@@ -286,71 +295,6 @@ void TextureMaps::add_occlusion(const ExportedObject& object, Json& material) {
     if (file && number.scale != 1) material["occlusionTexture"]["strength"] = number.scale;
 }
 
-void TextureMaps::add_opacity(const ExportedObject& object, Json& material) {
-    if (!object.is_see_through()) return;
-    material["alphaMode"] = object.opacity_cutoff > 0 ? "MASK" : "BLEND";
-    if (object.opacity_cutoff > 0) material["alphaCutoff"] = object.opacity_cutoff;
-    Json& surface = material["pbrMetallicRoughness"];
-    float factor = object.opacity;
-    if (!object.opacity_numbers.empty()) {
-        const ExportedTexturedNumber& number = object.opacity_numbers.front();
-        const bool is_factor = number.offset == 0 && number.scale >= 0 && number.scale <= 1;
-        const bool is_of_color =
-            is_factor && has_color_of(object, number) && scene_.textures[number.texture].is_opacity;
-        factor = is_of_color ? number.scale : 1;
-        if (!is_of_color) surface["baseColorTexture"] = covering_color(object, number);
-    }
-    surface["baseColorFactor"][3] = factor;
-}
-
-/// Whether an object's colour comes from the file that gives its opacity, in the same place.
-bool TextureMaps::has_color_of(const ExportedObject& object, const ExportedTexturedNumber& number) const {
-    return object.color_texture != ExportedObject::k_no_texture &&
-           std::string_view(scene_.textures[object.color_texture].file) ==
-               scene_.textures[number.texture].file &&
-           number.repeats == object.color_texture_repeats && is_as_colors(number);
-}
-
-/// A picture of an object's colour, or white, whose alpha is its opacity.
-Json TextureMaps::covering_color(const ExportedObject& object, const ExportedTexturedNumber& number) {
-    const ExportedTextureLevel& opacity = scene_.textures[number.texture].levels.front();
-    const ExportedTextureLevel* color = nullptr;
-    if (object.color_texture != ExportedObject::k_no_texture) {
-        color = &scene_.textures[object.color_texture].levels.front();
-        if (number.repeats != object.color_texture_repeats || !is_as_colors(number))
-            files_.approximate(
-                fmt::format("the opacity of object {} is placed like its colour", object.label).c_str());
-        if (color->width != opacity.width || color->height != opacity.height)
-            files_.approximate("pictures that share a texture map are brought to one size");
-    }
-    const auto info = [&](std::size_t image) -> Json {
-        if (color == nullptr) return info_of(image, number.repeats, number.placing);
-        return {{"index", pictures_.texture_of(image, object.color_texture_repeats)}};
-    };
-    const std::string key = fmt::format("opacity {} {} {} {} {} {} {}", number.texture, number.texel_channel,
-                                        number.scale, number.offset, number.minimum, number.maximum,
-                                        color != nullptr ? fmt::format("{}", object.color_texture) : "-");
-    const auto [known, is_new] = baked_.try_emplace(key);
-    if (!is_new) return info(known->second.image);
-    const int width = std::max(opacity.width, color != nullptr ? color->width : 1),
-              height = std::max(opacity.height, color != nullptr ? color->height : 1);
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    const auto byte_of = [](float share) { return static_cast<std::uint8_t>(std::lround(255 * share)); };
-    for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-            const double u = (x + 0.5) / width, v = (y + 0.5) / height;
-            for (std::size_t c = 0; c < 3; ++c)
-                bytes.push_back(color == nullptr ? 255 : byte_of(linear_to_srgb(texel_at(*color, c, u, v))));
-            const float texel = texel_at(opacity, number.texel_channel, u, v);
-            bytes.push_back(byte_of(
-                std::min(std::max(number.offset + number.scale * texel, number.minimum), number.maximum)));
-        }
-    }
-    known->second.image = pictures_.add(png_of(width, height, 4, bytes), "image/png");
-    return info(known->second.image);
-}
-
 void TextureMaps::add_normals(const ExportedObject& object, Json& material) {
     if (object.normal_map == nullptr) return;
     const ExportedNormalMap& map = *object.normal_map;
@@ -373,7 +317,7 @@ void TextureMaps::add_normals(const ExportedObject& object, Json& material) {
 
 std::optional<TextureMaps::Picture> TextureMaps::file_of(const Map& map, const std::vector<Source>& sources) {
     Picture picture;
-    std::optional<std::size_t> texture;
+    std::vector<std::size_t> textures;  // of one file
     for (const Source& source : sources) {
         if (source.number == nullptr) {
             // The picture would multiply it.
@@ -387,17 +331,21 @@ std::optional<TextureMaps::Picture> TextureMaps::file_of(const Map& map, const s
         const bool has_range = map.minimum != nullptr;
         const bool is_factor = !source.channel->is_inverted && (n.offset == 0 || has_range) && n.scale >= 0 &&
                                white <= map.most && n.offset >= n.minimum && white <= n.maximum;
+        const std::size_t first = textures.empty() ? n.texture : textures.front();
         if (!is_factor || channel_in_file(scene_, n) != source.channel->of_map ||
-            texture.value_or(n.texture) != n.texture)
+            std::string_view(scene_.textures[n.texture].file) != scene_.textures[first].file)
             return std::nullopt;
-        texture = n.texture;
+        textures.push_back(n.texture);
         picture.lowest.push_back(n.offset);
         picture.highest.push_back(white);
     }
-    if (map.has_direction && !is_along_tangent(scene_.textures[*texture].levels.front())) return std::nullopt;
-    const auto image = pictures_.file_of(*texture, map.is_encoded);
-    if (!image) return std::nullopt;
-    picture.image = *image;
+    if (map.has_direction && !is_along_tangent(scene_.textures[textures.front()].levels.front()))
+        return std::nullopt;
+    for (const std::size_t texture : textures) {
+        const auto image = pictures_.file_of(texture, map.is_encoded);
+        if (!image) return std::nullopt;
+        picture.image = *image;
+    }
     return picture;
 }
 
@@ -421,7 +369,7 @@ TextureMaps::Picture TextureMaps::baked(const Map& map, const std::vector<Source
     const auto [known, is_new] = baked_.try_emplace(key);
     Picture& picture = known->second;
     if (!is_new) return picture;
-    const std::size_t channels = sources.front().channel->of_map == 3 ? 4 : 3;
+    const std::size_t channels = sources.back().channel->of_map == 3 ? 4 : 3;
     const std::size_t texels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
     std::vector<std::uint8_t> bytes(channels * texels, 255);
     if (map.has_direction)
@@ -449,7 +397,8 @@ TextureMaps::Picture TextureMaps::baked(const Map& map, const std::vector<Source
         const float range = high > low ? high - low : 1;
         for (std::size_t i = 0; i < texels; ++i) {
             const float share = std::clamp((values[i] - low) / range, 0.0f, 1.0f);
-            const float stored = map.is_encoded ? linear_to_srgb(share) : share;
+            const bool is_encoded = map.is_encoded && source.channel->of_map < 3;
+            const float stored = is_encoded ? linear_to_srgb(share) : share;
             bytes[channels * i + source.channel->of_map] =
                 static_cast<std::uint8_t>(std::lround(255 * stored));
         }

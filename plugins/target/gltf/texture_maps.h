@@ -22,13 +22,12 @@ class TextureMaps {
     /// Adds maps to a material of glTF's own model, which has the means of the pictures in `values`.
     /// Parameters for which glTF has no map keep their mean, which is reported.
     void add(const ExportedObject& object, std::span<const ParamValue> values, Json& material);
-    /// Multiplies a material of any model with the picture of the object's colour, if it has one.
+    /// Adds an object's opacity, and the picture of its colour and opacity, to a material of any model, whose
+    /// colour the picture multiplies.
     void add_color(const ExportedObject& object, Json& material);
     /// Adds what an object emits, and its occlusion, to a material of any model.
     void add_emission(const ExportedObject& object, Json& material);
     void add_occlusion(const ExportedObject& object, Json& material);
-    /// Adds its opacity, after its colour and the texture of that.
-    void add_opacity(const ExportedObject& object, Json& material);
 
     /// Adds the object's normal map to a material, if it has one; a bump map is left out, which is reported.
     void add_normals(const ExportedObject& object, Json& material);
@@ -53,14 +52,10 @@ class TextureMaps {
     };
 
     void add(const ExportedObject& object, const Map& map, std::vector<Source> sources, Json& material);
-    bool has_color_of(const ExportedObject& object, const ExportedTexturedNumber& number) const;
-    Json covering_color(const ExportedObject& object, const ExportedTexturedNumber& number);
     Json info_of(std::size_t image, bool repeats, const float (&placing)[6]);
     /// Sources that glTF reads from the file of their one picture; nothing if it cannot.
     std::optional<Picture> file_of(const Map& map, const std::vector<Source>& sources);
     Picture baked(const Map& map, const std::vector<Source>& sources);
-    /// The file or the baked picture of three numbers that have a map of their own.
-    Picture picture_of(const Map& map, std::span<const ExportedTexturedNumber> numbers);
 
     const ExportedScene& scene_;
     Document& document_;

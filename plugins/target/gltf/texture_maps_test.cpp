@@ -283,6 +283,6 @@ opacity_cutoff = 0.1)"));
         const std::string file = made.file(made.material()["pbrMetallicRoughness"]["baseColorTexture"]);
         // Its header says that it has four channels.
         CHECK(file[25] == 6);
-        CHECK(made.material()["pbrMetallicRoughness"]["baseColorFactor"][3] == 1);
+        CHECK(made.material()["pbrMetallicRoughness"]["baseColorFactor"][3] == 0.5);
     }
 }
