@@ -155,6 +155,7 @@ using candela::ExportedModel;
 using candela::ExportedNormalMap;
 using candela::ExportedObject;
 using candela::ExportedObserver;
+using candela::ExportedRadianceMap;
 using candela::ExportedReflection;
 using candela::ExportedSample;
 using candela::ExportedScene;

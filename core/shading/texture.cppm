@@ -119,8 +119,8 @@ struct MaterialTextures {
     /// Adds the numbers of a parameter, the model's number `index`.
     CANDELA_EXPORT void add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
                             const PlacedTexture& picture);
-    /// Add those of a parameter of CommonMaterial, and of the colour; after all of the model's. Opacity, which
-    /// is found before the others, has textures of its own.
+    /// Add those of a parameter of CommonMaterial, and of the colour; after all of the model's. Opacity,
+    /// which is found before the others, has textures of its own.
     CANDELA_EXPORT void add_common(const ParameterTexture& texture, const PlacedTexture& picture);
     CANDELA_EXPORT void add_color(const ParameterTexture& texture, const PlacedTexture& picture);
 

@@ -124,8 +124,8 @@ TEST_CASE("mistakes in a parameter's texture are reported at their places") {
            {"scene.toml:12:6: error: 'kd' in [object.material] of 'ring'", "'texture'"});
     expect(with_material("kd = { texture = \"wood.ppm\", chanel = \"r\" }", d), 3,
            {"scene.toml:12:30: error:", "'chanel'", "channel"});
-    expect(with_material("kd = { texture = \"wood.ppm\", channel = \"a\" }", d), 3,
-           {"scene.toml:12:40: error: 'channel': \"a\" is not one of 'rgb', 'r', 'g', 'b'"});
+    expect(with_material("kd = { texture = \"wood.ppm\", channel = \"x\" }", d), 3,
+           {"scene.toml:12:40: error: 'channel': \"x\" is not one of 'rgb', 'r', 'g', 'b', 'a'"});
     expect(with_material("shininess = { texture = \"wood.ppm\", scale = [1, 2, 3] }", d), 3,
            {"scene.toml:12:45: error: 'scale' of 'shininess' in [object.material] of 'ring' has three "
             "numbers; the parameter has one"});

@@ -227,14 +227,14 @@ Json TextureMaps::info_of(std::size_t image, bool repeats, const float (&placing
 }
 
 void TextureMaps::add_color(const ExportedObject& object, Json& material) {
-    Json& pbr = material["pbrMetallicRoughness"];
-    std::span<const ExportedTexturedNumber> opacity;
-    if (object.is_see_through()) {
+    const bool is_see_through = object.is_see_through();
+    if (is_see_through) {
         material["alphaMode"] = object.opacity_cutoff > 0 ? "MASK" : "BLEND";
         if (object.opacity_cutoff > 0) material["alphaCutoff"] = object.opacity_cutoff;
-        pbr["baseColorFactor"][3] = object.opacity;
-        opacity = object.opacity_numbers;
     }
+    Json& pbr = material["pbrMetallicRoughness"];
+    if (is_see_through) pbr["baseColorFactor"][3] = object.opacity;
+    const auto opacity = is_see_through ? object.opacity_numbers : std::span<const ExportedTexturedNumber>();
     const std::span<const ExportedTexturedNumber> color = object.color_numbers;
     if (color.empty() && opacity.empty()) return;
     const ExportedTexturedNumber& placed = color.empty() ? opacity.front() : color.front();

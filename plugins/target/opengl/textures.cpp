@@ -94,9 +94,10 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
                      "object.common_material;\n")},
         {"IS_TEXTURED", if_textures(", material, object.normal_map, object.opacity_map")},
         {"TEXTURE_TEXT",
-         if_textures(" (material < 0 && object.normal_map < 0 && object.opacity_map < 0 ? \"\" : k_texture) +\n"
-                     "                                   (material < 0 ? \"\" : \"#define "
-                     "TEXTURED_MATERIAL\\n\") +")},
+         if_textures(
+             " (material < 0 && object.normal_map < 0 && object.opacity_map < 0 ? \"\" : k_texture) +\n"
+             "                                   (material < 0 ? \"\" : \"#define "
+             "TEXTURED_MATERIAL\\n\") +")},
         {"MATERIAL_TEXT",
          if_textures(" + (material < 0 ? \"\" : k_materials[static_cast<std::size_t>(material)]) +\n"
                      "                                   (object.normal_map < 0 ? \"\" : "
