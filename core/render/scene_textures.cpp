@@ -33,7 +33,7 @@ const std::shared_ptr<const MipMap>& SceneTextures::picture(const std::string& f
                                                             const SourceLocation& place) {
     const auto [known, is_new] = pictures_.try_emplace(key_of(file, decoding));
     if (!is_new) return known->second;
-    TextureImage read = read_texture(file, registry_, decoding);
+    const TextureImage read = read_texture(file, registry_, decoding);
     if (read.was_clamped)
         diagnostics_.warning(place, fmt::format("the texture '{}' has intensities above 1, which are "
                                                 "clamped: a surface cannot reflect more",

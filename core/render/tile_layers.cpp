@@ -141,14 +141,15 @@ void TileLayers::find_opacities() {
         batch_object_ = object;
         const std::size_t pixel = i % visibility_.plane();
         const auto stride = static_cast<std::size_t>(visibility_.stride);
+        const std::size_t column = pixel % stride, row = pixel / stride;
         const auto [x, y] = pattern[i / visibility_.plane()];
-        runs_.push_back({.pixel = static_cast<std::uint32_t>(pixel),
-                         .count = 1,
-                         .x = static_cast<float>(visibility_.x0) + static_cast<float>(pixel % stride) +
-                              static_cast<float>(x) / 16,
-                         .y = static_cast<float>(visibility_.y0) + static_cast<float>(pixel / stride) +
-                              static_cast<float>(y) / 16,
-                         .weight = 1});
+        runs_.push_back(
+            {.pixel = static_cast<std::uint32_t>(pixel),
+             .count = 1,
+             .x =
+                 static_cast<float>(visibility_.x0) + static_cast<float>(column) + static_cast<float>(x) / 16,
+             .y = static_cast<float>(visibility_.y0) + static_cast<float>(row) + static_cast<float>(y) / 16,
+             .weight = 1});
         triangles_.push_back(triangle - projected_->first_triangle[object]);
         places_.push_back(i);
     });

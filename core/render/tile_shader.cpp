@@ -199,11 +199,10 @@ void TileShader::add_background(const VisibleTile& layer) {
                 seen_.span().set(i, {everywhere.r, everywhere.g, everywhere.b});
                 continue;
             }
-            const std::uint32_t pixel = run.pixel + i;
-            towards_.span().set(
-                i, projected_->camera.view_through(
-                       static_cast<float>(layer.x0) + static_cast<float>(pixel % stride) + 0.5f,
-                       static_cast<float>(layer.y0) + static_cast<float>(pixel / stride) + 0.5f));
+            const std::uint32_t pixel = run.pixel + i, column = pixel % stride, row = pixel / stride;
+            towards_.span().set(i, projected_->camera.view_through(
+                                       static_cast<float>(layer.x0) + static_cast<float>(column) + 0.5f,
+                                       static_cast<float>(layer.y0) + static_cast<float>(row) + 0.5f));
         }
         if (!is_uniform) scene_->environment.look(run.count, std::as_const(towards_).span(), seen_.span());
         for (std::uint32_t i = 0; i < run.count; ++i)

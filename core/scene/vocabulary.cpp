@@ -36,6 +36,7 @@ constexpr std::string_view k_of_object =
 constexpr std::string_view k_parameter_texture =
     "write a table in [object.material], such as roughness = { texture = \"r.png\" }";
 constexpr std::string_view k_color_texture = "write color = { texture = \"a.png\" }";
+constexpr std::string_view k_clamped_texture = R"(write color = { texture = "a.png", wrap = "clamp" })";
 constexpr std::string_view k_color_of_object =
     "the colour is the object's: color = { texture = \"a.png\" } in [[object]]";
 constexpr std::string_view k_shape_size = "an object's size is its 'scale'";
@@ -211,8 +212,8 @@ constexpr auto k_words = std::to_array<Word>({
     {"object", "diffuse_texture", k_color_texture},
     {"object", "base_color_texture", k_color_texture},
     {"object", "color_texture", k_color_texture},
-    {"object", "color_texture_wrap", "write color = { texture = \"a.png\", wrap = \"clamp\" }"},
-    {"object", "texture_wrap", "write color = { texture = \"a.png\", wrap = \"clamp\" }"},
+    {"object", "color_texture_wrap", k_clamped_texture},
+    {"object", "texture_wrap", k_clamped_texture},
     {"object", "bump", "bump_map"},
     {"object", "bump_texture", "bump_map"},
     {"object", "normal", "normal_map"},

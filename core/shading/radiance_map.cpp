@@ -80,8 +80,9 @@ class FinestLevel {
         std::array<double, k_finest * k_finest> weights{};
         const std::size_t count = side * side;
         for (std::size_t i = 0; i < count; ++i) {
-            const double u = step * (static_cast<double>(column * side + i % side) + 0.5) - 1;
-            const double v = step * (static_cast<double>(row * side + i / side) + 0.5) - 1;
+            const std::size_t across = column * side + i % side, down = row * side + i / side;
+            const double u = step * (static_cast<double>(across) + 0.5) - 1;
+            const double v = step * (static_cast<double>(down) + 0.5) - 1;
             const Vec3 d = direction_at(u, v);
             const double sum = double{std::abs(d.x)} + double{std::abs(d.y)} + double{std::abs(d.z)};
             weights[i] = step * step * sum * sum * sum;

@@ -52,7 +52,7 @@ int last_radiance_level(const ExportedRadianceMap& map) {
 void write_radiance(const ExportedScene& scene, FileSink& files) {
     if (!has_mirror_images(scene)) return;
     std::vector<float> texels = radiance_texels(scene);
-    constexpr std::size_t k_row = 3 * k_radiance_width;
+    constexpr auto k_row = std::size_t{3} * k_radiance_width;
     texels.resize((texels.size() + k_row - 1) / k_row * k_row);
     // PFM's rows are stored from the bottom.
     std::string content = fmt::format("PF\n{} {}\n-1.0\n", k_radiance_width, texels.size() / k_row);

@@ -155,7 +155,7 @@ std::string explanation_json(const Explanation& e, JsonLayout layout) {
     const candela::Rgb intensity{e.pixel.intensity.x, e.pixel.intensity.y, e.pixel.intensity.z};
     const candela::Rgb toned = candela::toned(intensity, transform);
     const candela::Rgb shown = candela::displayed(intensity, transform);
-    const Json encoded = {shown.r, shown.g, shown.b};
+    Json encoded = {shown.r, shown.g, shown.b};
     Json result = {{"pixel", {e.x, e.y}},
                    {"width", e.compiled.image.width},
                    {"height", e.compiled.image.height},

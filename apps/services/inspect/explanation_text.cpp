@@ -133,7 +133,7 @@ class Writer {
                 placed = &textures.textures[textures.numbers[i].texture];
             }
             if (placed == nullptr) continue;
-            if (parameter.type != candela::ParamType::real) value = '[' + value + ']';
+            if (parameter.type != candela::ParamType::real) value = fmt::format("[{}]", value);
             line(2, fmt::format("{} = {}  {}", texture.parameter, value,
                                 texel_text(texture.file, *placed, point)));
         }
