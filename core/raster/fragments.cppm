@@ -63,7 +63,7 @@ class CANDELA_EXPORT TileFragments {
 
     /// Sorts them if surfaces let what is behind them through: `left` is the fraction of each sample, in the
     /// order of TileVisibility::triangle, that is not covered by anything nearer, and `opacity` the fraction
-    /// of that which its surface covers. A sample of which nothing is left is not part of any fragment. The
+    /// of that which its surface covers. Samples that are covered are not part of any fragment. The
     /// background's weights are those of samples without a triangle; runs of weight 0, of pixels that see
     /// several triangles or parts of them, only if `is_nearest`.
     void collect_layer(const ProjectedScene& scene, const TileVisibility& visibility,

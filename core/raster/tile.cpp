@@ -40,42 +40,29 @@ struct TileTriangle {
     int x0, x1, y0, y1;  // pixels covered by its box; x0 and x1 are multiples of k_block
 };
 
-struct TriangleLoop {
-    CANDELA_BATCH_LOOP static void run(TileTriangle t, SamplePlane plane) {
-        for (int y = t.y0; y < t.y1; ++y) {
-            const std::int32_t row0 = t.e[0] + y * t.ey[0];
-            const std::int32_t row1 = t.e[1] + y * t.ey[1];
-            const std::int32_t row2 = t.e[2] + y * t.ey[2];
-            const float row_z = t.z + static_cast<float>(y - t.anchor_y) * t.zy;
-            const std::ptrdiff_t row = std::ptrdiff_t{y} * plane.stride;
-            float* const depth = plane.depth + row;
-            std::uint32_t* const triangle = plane.triangle + row;
-            for (int block = t.x0; block < t.x1; block += k_block) {
-                CANDELA_VECTORIZE_SIXTEEN
-                for (int x = block; x < block + k_block; ++x) {
-                    const std::int32_t outside =
-                        (row0 + x * t.ex[0]) | (row1 + x * t.ex[1]) | (row2 + x * t.ex[2]);
-                    const float z = row_z + static_cast<float>(x - t.anchor_x) * t.zx;
-                    const float old_z = depth[x];
-                    const std::uint32_t old_id = triangle[x];
-                    const bool wins = outside >= 0 && z > old_z;
-                    depth[x] = wins ? z : old_z;
-                    triangle[x] = wins ? t.id : old_id;
-                }
-            }
-        }
+/// Samples see the nearest triangle of all.
+struct NoLimits {
+    NoLimits from(std::ptrdiff_t) const { return {}; }
+    bool admits(std::ptrdiff_t, float, std::uint32_t) const { return true; }
+};
+
+/// Samples see the nearest triangle behind a depth and the triangle there; equally near ones come in the
+/// scene's order.
+struct Limits {
+    const float* depth;
+    const std::uint32_t* triangle;
+
+    Limits from(std::ptrdiff_t first) const { return {depth + first, triangle + first}; }
+    bool admits(std::ptrdiff_t sample, float z, std::uint32_t id) const {
+        const float limit = depth[sample];
+        const std::uint32_t last = triangle[sample];
+        return (id != last) & ((z < limit) | ((z == limit) & (id > last)));
     }
 };
 
-/// The surface of each sample of a plane behind which others are looked for.
-struct LimitPlane {
-    const float* depth;
-    const std::uint32_t* triangle;
-};
-
-/// Like TriangleLoop, which finds the same depths, behind the limits.
-struct TriangleBehindLoop {
-    CANDELA_BATCH_LOOP static void run(TileTriangle t, SamplePlane plane, LimitPlane limits) {
+template <class Limited>
+struct TriangleLoop {
+    CANDELA_BATCH_LOOP static void run(TileTriangle t, SamplePlane plane, Limited limits) {
         for (int y = t.y0; y < t.y1; ++y) {
             const std::int32_t row0 = t.e[0] + y * t.ey[0];
             const std::int32_t row1 = t.e[1] + y * t.ey[1];
@@ -84,8 +71,7 @@ struct TriangleBehindLoop {
             const std::ptrdiff_t row = std::ptrdiff_t{y} * plane.stride;
             float* const depth = plane.depth + row;
             std::uint32_t* const triangle = plane.triangle + row;
-            const float* const limit_depth = limits.depth + row;
-            const std::uint32_t* const limit_triangle = limits.triangle + row;
+            const Limited limit = limits.from(row);
             for (int block = t.x0; block < t.x1; block += k_block) {
                 CANDELA_VECTORIZE_SIXTEEN
                 for (int x = block; x < block + k_block; ++x) {
@@ -94,9 +80,7 @@ struct TriangleBehindLoop {
                     const float z = row_z + static_cast<float>(x - t.anchor_x) * t.zx;
                     const float old_z = depth[x];
                     const std::uint32_t old_id = triangle[x];
-                    const bool is_behind =
-                        (z < limit_depth[x]) | ((z == limit_depth[x]) & (t.id > limit_triangle[x]));
-                    const bool wins = (outside >= 0) & (z > old_z) & is_behind & (t.id != limit_triangle[x]);
+                    const bool wins = (outside >= 0) & (z > old_z) & limit.admits(x, z, t.id);
                     depth[x] = wins ? z : old_z;
                     triangle[x] = wins ? t.id : old_id;
                 }
@@ -186,11 +170,10 @@ void clear(TileVisibility& visibility) {
 }
 
 /// Rasterises one tile's triangles.
+template <class Limited>
 class TileRaster {
   public:
-    /// `limits`: what the samples look behind, or null.
-    TileRaster(const ProjectedScene& scene, TileVisibility& visibility,
-               const TileVisibility* limits = nullptr)
+    TileRaster(const ProjectedScene& scene, TileVisibility& visibility, Limited limits)
         : scene_(scene), visibility_(visibility), limits_(limits), pattern_(sample_pattern(scene.samples)) {}
 
     void see(const TriangleBin& bin, std::span<const BinnedTriangle> triangles) {
@@ -247,16 +230,10 @@ class TileRaster {
             const float depth = first + static_cast<float>(column) * small_.to_right[i] +
                                 static_cast<float>(row) * small_.down[i];
             if (!(depth > visibility_.depth[pixel])) continue;
-            if (limits_ != nullptr && !is_behind(pixel, depth, id)) continue;
+            if (!limits_.admits(static_cast<std::ptrdiff_t>(pixel), depth, id)) continue;
             visibility_.depth[pixel] = depth;
             visibility_.triangle[pixel] = id;
         }
-    }
-
-    bool is_behind(std::size_t pixel, float depth, std::uint32_t id) const {
-        const float limit = limits_->depth[pixel];
-        const std::uint32_t triangle = limits_->triangle[pixel];
-        return id != triangle && (depth < limit || (depth == limit && id > triangle));
     }
 
     void rasterize_large(const RasterTriangle& triangle) {
@@ -272,20 +249,17 @@ class TileRaster {
             TileTriangle set;
             if (!set_up(triangle, grid, set)) continue;
             const std::size_t plane = s * visibility_.plane();
-            const SamplePlane to{visibility_.stride, visibility_.depth.data() + plane,
-                                 visibility_.triangle.data() + plane};
-            if (limits_ == nullptr) {
-                multiversion<TriangleLoop>(set, to);
-            } else {
-                multiversion<TriangleBehindLoop>(
-                    set, to, LimitPlane{limits_->depth.data() + plane, limits_->triangle.data() + plane});
-            }
+            multiversion<TriangleLoop<Limited>>(
+                set,
+                SamplePlane{visibility_.stride, visibility_.depth.data() + plane,
+                            visibility_.triangle.data() + plane},
+                limits_.from(static_cast<std::ptrdiff_t>(plane)));
         }
     }
 
     const ProjectedScene& scene_;
     TileVisibility& visibility_;
-    const TileVisibility* limits_;
+    Limited limits_;
     std::span<const SamplePosition> pattern_;
     SmallTriangles small_;
 };
@@ -302,7 +276,7 @@ bool rasterize(const ProjectedScene& scene, int tile, TileVisibility& visibility
     visibility.stride = scene.tile_size;
     visibility.samples = scene.samples;
 
-    TileRaster raster(scene, visibility);
+    TileRaster raster(scene, visibility, NoLimits{});
     bool is_cleared = false;
     for (const TriangleBin& bin : scene.bins) {
         const std::span<const BinnedTriangle> triangles = bin.triangles_in(column, row);
@@ -322,7 +296,7 @@ void rasterize_behind(const ProjectedScene& scene, const TileVisibility& before,
     visibility.stride = before.stride;
     visibility.samples = before.samples;
     clear(visibility);
-    TileRaster raster(scene, visibility, &before);
+    TileRaster raster(scene, visibility, Limits{before.depth.data(), before.triangle.data()});
     for (const TriangleBin& bin : scene.bins)
         raster.see(bin, bin.triangles_in(before.x0 / scene.tile_size, before.y0 / scene.tile_size));
 }

@@ -88,10 +88,6 @@ void shade_object(const RenderScene& scene, const FragmentList& fragments, TileS
     }
 }
 
-}  // namespace
-
-namespace {
-
 // Surfaces that show what is behind them: the layers of the tile, one after the other.
 void shade_layers(const RenderScene& scene, const VisibleTile& visible, TileWorker& worker) {
     TileLayers& layers = worker.layers;

@@ -73,7 +73,7 @@ bool TileLayers::next() {
     return true;
 }
 
-/// Every sample of which something is left looks behind its surface.
+/// Samples that are not yet covered look behind their surface.
 void TileLayers::go_behind() {
     std::ranges::fill(before_.depth, k_nowhere);
     each_sample([&](std::size_t i) {
