@@ -3,6 +3,7 @@ module;
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 module candela.render;
@@ -59,27 +60,13 @@ PlacedTexture SceneTextures::placed(const ParameterTexture& texture, const Param
 void SceneTextures::make(const Object& object, SurfaceModels& surface) {
     if (surface.material_textures.arrays() > 0 || surface.opacity_textures.arrays() > 0) return;
     if (object.normal_map) make_normal_map(object, *object.normal_map, surface);
-    const auto read = [&](const ParameterTexture& texture, const Parameter& parameter, const auto& add) {
+    const auto place = [&](const ParameterTexture& texture, const Parameter& parameter) {
+        std::optional<PlacedTexture> result;
         reported(diagnostics_, fmt::format("'{}' of object {}", texture.parameter, object.label.text()),
-                 texture.place, [&] { add(placed(texture, parameter)); });
+                 texture.place, [&] { result = placed(texture, parameter); });
+        return result;
     };
-    const ParamSet& values = object.reflection.parameters;
-    for (const ParameterTexture& texture : object.textures) {
-        const std::size_t index = values.index_of(texture.parameter);
-        read(texture, values.schema()[index], [&](const PlacedTexture& placed) {
-            surface.material_textures.add(texture, values.schema()[index], index, placed);
-        });
-    }
-    for (const ParameterTexture& texture : object.common.textures) {
-        MaterialTextures& to =
-            texture.parameter == "opacity" ? surface.opacity_textures : surface.material_textures;
-        read(texture, material_parameter(texture.parameter),
-             [&](const PlacedTexture& placed) { to.add_common(texture, placed); });
-    }
-    if (object.color_texture)
-        read(*object.color_texture, color_parameter(), [&](const PlacedTexture& placed) {
-            surface.material_textures.add_color(*object.color_texture, placed);
-        });
+    MaterialTextures::add_all(object, place, surface.material_textures, surface.opacity_textures);
 }
 
 void SceneTextures::make_normal_map(const Object& object, const NormalMap& map, SurfaceModels& surface) {

@@ -5,6 +5,7 @@ module;
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <span>
 
 module candela.shading;
@@ -138,6 +139,24 @@ void MaterialTextures::add_common(const ParameterTexture& texture, const PlacedT
 void MaterialTextures::add_color(const ParameterTexture& texture, const PlacedTexture& picture) {
     color = numbers.size();
     add_numbers(texture, color_parameter(), 0, picture);
+}
+
+void MaterialTextures::add_all(const Object& object, const Placing& place, MaterialTextures& material,
+                               MaterialTextures& opacity) {
+    const ParamSet& values = object.reflection.parameters;
+    for (const ParameterTexture& texture : object.textures) {
+        const std::size_t index = values.index_of(texture.parameter);
+        const Parameter& parameter = values.schema()[index];
+        if (const auto placed = place(texture, parameter)) material.add(texture, parameter, index, *placed);
+    }
+    for (const ParameterTexture& texture : object.common.textures) {
+        MaterialTextures& to = texture.parameter == "opacity" ? opacity : material;
+        if (const auto placed = place(texture, material_parameter(texture.parameter)))
+            to.add_common(texture, *placed);
+    }
+    if (!object.color_texture) return;
+    if (const auto placed = place(*object.color_texture, color_parameter()))
+        material.add_color(*object.color_texture, *placed);
 }
 
 void MaterialTextures::add_numbers(const ParameterTexture& texture, const Parameter& parameter,

@@ -7,6 +7,7 @@ module;
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -116,19 +117,24 @@ struct MaterialTextures {
     /// How many arrays evaluate() writes.
     std::size_t arrays() const { return numbers.size() + (normal ? 3u : 0u); }
 
-    /// Adds the numbers of a parameter, the model's number `index`.
-    CANDELA_EXPORT void add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
-                            const PlacedTexture& picture);
-    /// Add those of a parameter of CommonMaterial, and of the colour; after all of the model's. Opacity,
-    /// which is found before the others, has textures of its own.
-    CANDELA_EXPORT void add_common(const ParameterTexture& texture, const PlacedTexture& picture);
-    CANDELA_EXPORT void add_color(const ParameterTexture& texture, const PlacedTexture& picture);
+    /// The picture of a parameter's texture; nothing if it cannot be used.
+    using Placing = std::function<std::optional<PlacedTexture>(const ParameterTexture&, const Parameter&)>;
+    /// Adds the textures of an object's material and colour to `material`, and to `opacity` that of its
+    /// opacity, which is found before the others.
+    CANDELA_EXPORT static void add_all(const Object& object, const Placing& place, MaterialTextures& material,
+                                       MaterialTextures& opacity);
 
     /// Adds a picture that tilts normals, of this width and height.
     CANDELA_EXPORT void add(const NormalMap& map, const PlacedTexture& picture, int width, int height);
 
   private:
     std::size_t number_of(const PlacedTexture& picture);
+    /// Add the numbers of the model's parameter `index`, and of one of CommonMaterial or the colour, after
+    /// all of the model's.
+    void add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
+             const PlacedTexture& picture);
+    void add_common(const ParameterTexture& texture, const PlacedTexture& picture);
+    void add_color(const ParameterTexture& texture, const PlacedTexture& picture);
     void add_numbers(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
                      const PlacedTexture& picture);
 };

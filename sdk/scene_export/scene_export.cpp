@@ -417,8 +417,8 @@ class Exporter {
             refuse("is not opaque", "remove 'opacity' from its material");
     }
 
-    ExportedTexturedNumber exported(const TexturedNumber& number, const PlacedTexture& placed,
-                                    std::size_t picture) const {
+    static ExportedTexturedNumber exported_number(const TexturedNumber& number, const PlacedTexture& placed,
+                                                  std::size_t picture) {
         ExportedTexturedNumber result{.parameter = number.parameter,
                                       .channel = number.channel,
                                       .texture = picture,
@@ -435,40 +435,28 @@ class Exporter {
     /// The numbers of an object that come from pictures: of its own material, emission, occlusion and colour.
     void add_textured_numbers(const Object& object, ExportStorage::Object& to) {
         if (object.textures.empty() && object.common.textures.empty() && !object.color_texture) return;
+        std::map<std::string, std::size_t> pictures;  // by the key of a placed one: index of to_.textures
+        const auto place = [&](const ParameterTexture& texture,
+                               const Parameter& parameter) -> std::optional<PlacedTexture> {
+            const bool is_opacity = &parameter == &material_parameter("opacity");
+            if (is_opacity && !request_.abilities.opacity) return std::nullopt;
+            const std::size_t picture =
+                texture.channel == TextureChannel::alpha
+                    ? opacity_map_of(texture.file)
+                    : texture_of(texture.file,
+                                 encoding_of(texture, parameter, scene_.image.color_management));
+            std::string key = fmt::format("{}", picture);
+            pictures.emplace(key, picture);
+            return PlacedTexture{std::move(key), nullptr, texture.wrap, texture.transform};
+        };
         MaterialTextures textures, of_opacity;
-        std::vector<std::size_t> pictures;  // of each texture: index of to_.textures
-        const auto picture_of = [&](const ParameterTexture& texture, const Parameter& parameter) {
-            if (texture.channel == TextureChannel::alpha) return opacity_map_of(texture.file);
-            return texture_of(texture.file, encoding_of(texture, parameter, scene_.image.color_management));
+        MaterialTextures::add_all(object, place, textures, of_opacity);
+        const auto exported = [&](const MaterialTextures& of, const TexturedNumber& number) {
+            const PlacedTexture& placed = of.textures[number.texture];
+            return exported_number(number, placed, pictures.at(placed.key));
         };
-        const auto place = [&](const ParameterTexture& texture, const Parameter& parameter, const auto& add) {
-            const std::size_t picture = picture_of(texture, parameter);
-            add(PlacedTexture{fmt::format("{}", picture), nullptr, texture.wrap, texture.transform});
-            pictures.resize(textures.textures.size(), picture);
-        };
-        const ParamSet& values = object.reflection.parameters;
-        for (const ParameterTexture& texture : object.textures) {
-            const std::size_t index = values.index_of(texture.parameter);
-            place(texture, values.schema()[index], [&](const PlacedTexture& placed) {
-                textures.add(texture, values.schema()[index], index, placed);
-            });
-        }
-        for (const ParameterTexture& texture : object.common.textures) {
-            const Parameter& parameter = material_parameter(texture.parameter);
-            if (texture.parameter == "opacity" && !request_.abilities.opacity) continue;
-            if (texture.parameter == "opacity") {
-                const PlacedTexture placed{{}, nullptr, texture.wrap, texture.transform};
-                of_opacity.add_common(texture, placed);
-                to.opacity_numbers = {
-                    exported(of_opacity.numbers.front(), placed, picture_of(texture, parameter))};
-                continue;
-            }
-            place(texture, parameter,
-                  [&](const PlacedTexture& placed) { textures.add_common(texture, placed); });
-        }
-        if (object.color_texture)
-            place(*object.color_texture, color_parameter(),
-                  [&](const PlacedTexture& placed) { textures.add_color(*object.color_texture, placed); });
+        for (const TexturedNumber& number : of_opacity.numbers)
+            to.opacity_numbers.push_back(exported(of_opacity, number));
         for (std::size_t i = 0; i < textures.numbers.size(); ++i) {
             const TexturedNumber& number = textures.numbers[i];
             const bool is_of_model = i < textures.of_model, is_occlusion = i == textures.occlusion,
@@ -477,7 +465,7 @@ class Exporter {
              : is_occlusion ? to.occlusion_numbers
              : is_color     ? to.color_numbers
                             : to.emission_numbers)
-                .push_back(exported(number, textures.textures[number.texture], pictures[number.texture]));
+                .push_back(exported(textures, number));
         }
     }
 
