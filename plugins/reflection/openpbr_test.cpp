@@ -191,7 +191,7 @@ TEST_CASE("reflection/openpbr: a smooth coat darkens a matt base as internal ref
         const double k = 1 - (1 - mean_fresnel(ior)) / (ior * ior);
         for (const double albedo : {0.2, 0.7, 1.0}) {
             const auto base = [&](double darkening) {
-                // Of the coat's index, so that there is nothing but its matt part.
+                // It has the index of the coat, so that only its matt part is left.
                 const auto model = openpbr({{"base_color", albedo},
                                             {"specular_ior", ior},
                                             {"coat_weight", 1.0},

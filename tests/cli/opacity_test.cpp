@@ -57,7 +57,7 @@ TEST_CASE("explain lists the surfaces at a pixel, with what each covers") {
         succeeded(with_material("opacity = 0.25", d, std::string(command) + " --json")).out;
     CHECK(holds(json, "\"layer\": 2"));
     CHECK(holds(json, "\"opacity\": 0.25"));
-    SECTION("and no surface of which nothing is there") {
+    SECTION("and no surface that is nowhere") {
         const std::string hole =
             succeeded(with_material("opacity = 0.3\nopacity_cutoff = 0.5", d, command)).out;
         CHECK_FALSE(holds(hole, "ball"));

@@ -24,7 +24,7 @@ using Color = std::array<double, 3>;
 
 constexpr Color k_background{0.2, 0.4, 0.6};
 
-/// Light from everywhere, of which an unlit object shows its own colour.
+/// In light from everywhere, an unlit object has its own colour.
 std::string scene(const std::string& objects, const std::string& image = {}, int size = k_size) {
     return fmt::format(
         "[observer]\nposition = [0, 0, 4]\nlook_at = [0, 0, 0]\nprojection = \"orthographic\"\nheight = 2\n"
@@ -273,7 +273,7 @@ TEST_CASE("golden: an object with an opacity of 1 has the picture of one without
     CHECK(rendered("opacity = 1\nopacity_cutoff = 0.5") == rendered(""));
 }
 
-TEST_CASE("golden: light passes through what is not covered, and shadows are of the rest") {
+TEST_CASE("golden: light passes where a surface is not, and the rest of it casts a shadow") {
     const auto folder = folder_with_square();
     write_alpha(folder / "stripes.png", k_size, [](int x, int) { return is_stripe(x) ? 255 : 0; });
     // The observer looks at the wall from behind the light's pane, along the light.

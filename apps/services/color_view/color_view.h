@@ -16,7 +16,7 @@ struct ViewName {
 
 class ColorView {
   public:
-    /// Starts the program. Throws candela::Error if it is not installed, or if there is no configuration.
+    /// Starts the program. Throws candela::Error if it is not installed or finds no configuration.
     explicit ColorView(ViewName name);
 
     /// Waits until the view is found. Throws candela::Error (bad_request), with the known views or displays.

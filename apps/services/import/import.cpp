@@ -34,8 +34,10 @@ Vector encoded(const std::vector<double>& linear) {
     return color;
 }
 
+double rounded(double number) { return std::round(1e4 * number) / 1e4; }
+
 std::vector<double> shortened(std::vector<double> numbers) {
-    for (double& x : numbers) x = std::round(1e4 * x) / 1e4;
+    for (double& x : numbers) x = rounded(x);
     if (std::ranges::all_of(numbers, [&](double x) { return x == numbers[0]; })) numbers.resize(1);
     return numbers;
 }

@@ -139,7 +139,6 @@ bool MaterialLibraries::is_physical(const mesh_io::MtlMaterial& material) {
 
 void MaterialLibraries::add(const mesh_io::MtlMap& map, const MeasuredImage& picture, const char* parameter,
                             double scale, double offset, Material& to) {
-    const auto rounded = [](double x) { return std::round(1e4 * x) / 1e4; };
     const std::size_t channel = map.channel == 'g' ? 1 : map.channel == 'b' ? 2 : 0;
     const auto at =
         std::ranges::find(to.values, parameter, &std::pair<std::string, std::vector<double>>::first);
@@ -155,7 +154,7 @@ void MaterialLibraries::add(const mesh_io::MtlMap& map, const MeasuredImage& pic
 void MaterialLibraries::become_metallic_roughness(const Description& description, Material& to) {
     const mesh_io::MtlMaterial& from = description.material;
     const auto share = [&](const std::optional<double>& value, double otherwise) {
-        return std::round(1e4 * std::clamp(value.value_or(otherwise), 0.0, 1.0)) / 1e4;
+        return rounded(std::clamp(value.value_or(otherwise), 0.0, 1.0));
     };
     to.reflection = "metallic-roughness";
     std::vector<double> color = coefficients(from.kd, 0.8);
@@ -164,7 +163,7 @@ void MaterialLibraries::become_metallic_roughness(const Description& description
     if (to.color_map) to.color_map->scale = shortened(color);
     const double metallic = share(from.metallic, 0);
     // As for glTF: ambient light stands for half of the surroundings that a metal mirrors.
-    to.values = {{"ka", {std::round(1e4 * (0.96 - 0.46 * metallic)) / 1e4}},
+    to.values = {{"ka", {rounded(0.96 - 0.46 * metallic)}},
                  {"metallic", {metallic}},
                  {"roughness", {share(from.roughness, 0.5)}}};
     // Like a colour, a number multiplies its picture; some programs write 0 next to one.
@@ -235,7 +234,7 @@ void MaterialLibraries::add_emission(const Description& description, Material& t
 
 void MaterialLibraries::add_opacity(const Description& description, Material& to) {
     const mesh_io::MtlMaterial& from = description.material;
-    double opacity = std::round(1e4 * from.opacity) / 1e4;
+    double opacity = rounded(from.opacity);
     const auto picture =
         from.opacity_map.file.empty() ? std::nullopt : image(from.opacity_map.file, to.name, description);
     // Some programs write 0 next to a picture.
@@ -245,7 +244,7 @@ void MaterialLibraries::add_opacity(const Description& description, Material& to
     if (!picture) return;
     if (picture->means.is_opacity_equal) return add(from.opacity_map, *picture, "opacity", opacity, 0, to);
     // A picture with opacity means that.
-    to.values.back().second = {std::round(1e4 * opacity * picture->means.opacity) / 1e4};
+    to.values.back().second = {rounded(opacity * picture->means.opacity)};
     to.maps.push_back(
         placed({.parameter = "opacity", .image = picture->index, .channel = "a", .scale = {opacity}},
                from.opacity_map));

@@ -70,7 +70,9 @@ struct Placing {
     friend bool operator==(const Placing&, const Placing&) = default;
 };
 
-/// In four digits; one number if all are equal.
+/// In four digits.
+double rounded(double number);
+/// The same; one number if all are equal.
 std::vector<double> shortened(std::vector<double> numbers);
 
 /// A picture from which a parameter takes its value at each point: offset + scale * texel.

@@ -219,7 +219,7 @@ class Builder {
         const Vec3 n = normal_[vertex], t = surface_.tangent.span()[source(vertex)];
         const Vec3 b = surface_.tangent_side[source(vertex)] * unit(cross(n, t));
         if (b == Vec3{}) return;
-        // Without an area in the texture, there are no lengths.
+        // A triangle without area in the texture has no lengths.
         const auto size_or_one = [](Vec3 v) { return v == Vec3{} ? 1 : length(v); };
         dpdu = size_or_one(dpdu) * t;
         dpdv = size_or_one(dpdv) * b;

@@ -77,7 +77,7 @@ std::string row(const std::vector<int>& bytes) {
     return file;
 }
 
-/// A PNG file of many colours, none of which is only black and white.
+/// A PNG file of many colours, so that it is not read alike in both encodings.
 Folder folder_with_picture() {
     Folder folder;
     succeeded(folder.run("render -o picture.png --width 12 --height 8"));

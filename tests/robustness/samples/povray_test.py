@@ -72,8 +72,8 @@ class Materials:
     def of(self, part):
         if self.base_colors:
             color, metallic = self.base_colors[part.material]
-            # The imported material is reflection/metallic-roughness, of which Lambert's only has the ambient part. glTF 2.0, appendix B: the
-            # index of refraction is 1.5.
+            # reflection/lambert takes only ka from the imported material, which is metallic-roughness's. glTF 2.0, appendix B: the index of
+            # refraction is 1.5.
             return Material(color, 0.96 * (1 - metallic), LAMBERT_KD)
         if part.material in self.library:
             found = self.library[part.material]
