@@ -144,6 +144,7 @@ using candela::MeshRequest;
 using candela::MeshSink;
 using candela::MeshSpans;
 using candela::Shape;
+using candela::VertexChannel;
 using candela::welded;
 
 // candela/target.h
@@ -164,6 +165,7 @@ using candela::ExportedTexture;
 using candela::ExportedTexturedNumber;
 using candela::ExportedTextureLevel;
 using candela::ExportedValues;
+using candela::ExportedWrap;
 using candela::FileSink;
 using candela::ProgramResult;
 using candela::ProgramRunner;

@@ -34,21 +34,22 @@ namespace {
 constexpr float k_farthest = 1e9f;
 
 /// The approximate memory for a mesh while it is made, checked and drawn.
-std::uint64_t memory_for(const MeshLayout& layout) {
+std::uint64_t memory_for(const MeshLayout& layout, std::size_t channels) {
     const std::uint64_t vectors = 7u + (layout.has_normals ? 1u : 0u) + (layout.has_uv ? 1u : 0u) +
                                   (layout.has_derivatives ? 2u : 0u) + (layout.has_color ? 1u : 0u);
     constexpr std::uint64_t k_vector = 3 * sizeof(float);
     constexpr std::uint64_t k_triangle = 3 * sizeof(std::uint32_t) + k_vector + 40;  // projected
     const bool is_counted = layout.closedness != Closedness::unknown && layout.closedness != Closedness::open;
     const std::uint64_t edges = is_counted ? 0 : 3 * 8;
-    return layout.vertices * vectors * k_vector + layout.triangles * (k_triangle + edges);
+    const std::uint64_t vertex = vectors * k_vector + (layout.has_channels ? channels * sizeof(float) : 0);
+    return layout.vertices * vertex + layout.triangles * (k_triangle + edges);
 }
 
 /// Receives what a shape writes, before it is transformed.
 class Collector final : public MeshSink {
   public:
     Collector(const MeshRequest& request, const std::function<void(double)>& progress)
-        : takes_facets_(request.facets), progress_(progress) {}
+        : takes_facets_(request.facets), channels_(request.channels), progress_(progress) {}
 
     MeshSpans allocate(const MeshLayout& layout) override {
         if (allocated_) throw std::logic_error("the shape requested its arrays twice");
@@ -61,7 +62,8 @@ class Collector final : public MeshSink {
             throw std::invalid_argument(
                 fmt::format("{} triangles are more than can be numbered", layout.triangles));
         }
-        require_memory(memory_for(layout), fmt::format("a shape of {} triangles", layout.triangles));
+        require_memory(memory_for(layout, channels_.size()),
+                       fmt::format("a shape of {} triangles", layout.triangles));
         closedness = layout.closedness;
         open_edges = layout.open_edges;
         mesh.position.resize(layout.vertices);
@@ -77,6 +79,16 @@ class Collector final : public MeshSink {
         }
         if (layout.has_color) mesh.color.resize(layout.vertices);
         if (layout.has_smooth_groups) smooth_group.resize(layout.vertices);
+        if (!channels_.empty() && !layout.has_channels)
+            throw std::invalid_argument(
+                fmt::format("there is no vertex attribute '{}': only meshes from files have any",
+                            channels_[0].attribute));
+        mesh.channels.resize(channels_.size());
+        mesh.has_second_uv = !channels_.empty() && channels_[0].attribute == "uv1";
+        for (AlignedVector<float>& channel : mesh.channels) {
+            channel.resize(layout.vertices);
+            channel_pointers_.push_back(channel.data());
+        }
         const auto optional = [](Vec3Arrays& arrays) { return arrays.empty() ? Vec3Span{} : arrays.span(); };
         return {.position = mesh.position.span(),
                 .indices = mesh.indices,
@@ -85,7 +97,8 @@ class Collector final : public MeshSink {
                 .dpdu = optional(mesh.dpdu),
                 .dpdv = optional(mesh.dpdv),
                 .smooth_group = smooth_group,
-                .color = optional(mesh.color)};
+                .color = optional(mesh.color),
+                .channels = channel_pointers_};
     }
 
     void warn(std::string_view sentence) override { warnings.emplace_back(sentence); }
@@ -102,6 +115,8 @@ class Collector final : public MeshSink {
 
   private:
     bool takes_facets_;
+    std::span<const VertexChannel> channels_;
+    std::vector<float*> channel_pointers_;
     const std::function<void(double)>& progress_;
     bool allocated_ = false;
 };

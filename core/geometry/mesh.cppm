@@ -36,10 +36,14 @@ struct Mesh {
     AlignedVector<float> u, v;  // per vertex, or empty
     Vec3Arrays dpdu, dpdv;      // per vertex, or empty
     Vec3Arrays color;           // red, green, blue, 0 to 1; per vertex, or empty
-    bool closed = false;        // or one-sided; otherwise visible from both sides
-    bool is_convex = false;     // and closed
-    bool one_sided = false;     // visible only from the front, even where it is open
-    bool is_faceted = false;    // the normal of a triangle's points is the triangle's; vertices have none
+    /// Further numbers, per vertex, as they were requested. With has_second_uv, the first two are the second
+    /// texture coordinates.
+    std::vector<AlignedVector<float>> channels;
+    bool has_second_uv = false;
+    bool closed = false;      // or one-sided; otherwise visible from both sides
+    bool is_convex = false;   // and closed
+    bool one_sided = false;   // visible only from the front, even where it is open
+    bool is_faceted = false;  // the normal of a triangle's points is the triangle's; vertices have none
     std::size_t open_edges = 0;
     Box bounds{};  // of the vertices
 

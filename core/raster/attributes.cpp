@@ -103,6 +103,23 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
     if (needs.triangle) repeat_corners(mesh, vertices, first, count, points);
 }
 
+void allocate_channels(const Mesh& mesh, SurfacePoints& points) {
+    while (points.channels.size() < mesh.channels.size())
+        points.channels.emplace_back(k_batch_size + k_lanes);
+}
+
+void blend_channels(const Mesh& mesh, const Indices& vertices, std::size_t channel, std::size_t first,
+                    std::size_t count, SurfacePoints& points) {
+    const ConstVec3Span weight = std::as_const(points.barycentric).span();
+    for (std::size_t c = channel; c < mesh.channels.size(); ++c) {
+        const AlignedVector<float>& of = mesh.channels[c];
+        const Vec3 corners{of[vertices[0]], of[vertices[1]], of[vertices[2]]};
+        for (std::size_t i = first; i < first + count; ++i)
+            points.channels[c][i] =
+                weight.x[i] * corners.x + weight.y[i] * corners.y + weight.z[i] * corners.z;
+    }
+}
+
 void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,
                     SurfacePoints& points) {
     const Indices vertices = corners_of(mesh, triangle);
@@ -114,6 +131,7 @@ void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, Point
                                                        : blend({a.normal, b.normal, c.normal}, weight));
     points.barycentric.span().set(i, weight);
     if (needs.more()) blend_attributes(mesh, vertices, needs, i, 1, points);
+    if (needs.channels) blend_channels(mesh, vertices, 0, i, 1, points);
 }
 
 void set_triangles(PointNeeds needs, std::span<const std::uint32_t> triangles, SurfacePoints& points) {
@@ -134,6 +152,7 @@ SurfacePoints::SurfacePoints() {
     }
     for (AlignedVector<float>* const array : {&facing, &u, &v, &dudx, &dvdx, &dudy, &dvdy})
         array->resize(k_batch_size + k_lanes);
+    for (AlignedVector<float>& array : second_footprint) array.resize(k_batch_size + k_lanes);
     for (AlignedVector<std::uint32_t>* const array : {&pixel_x, &pixel_y, &triangle})
         array->resize(k_batch_size + k_lanes);
     coverage.resize(k_batch_size + k_lanes);

@@ -56,7 +56,16 @@ bool ProjectedMesh::is_back(std::uint32_t triangle) const {
 
 namespace {
 
-TriangleAttributes attributes_of(const ProjectedMesh& source, std::uint32_t triangle) {
+/// A mesh's texture coordinates: the first ones, or the second.
+struct CoordinateSet {
+    const AlignedVector<float>*u, *v;
+
+    static CoordinateSet first(const Mesh& mesh) { return {&mesh.u, &mesh.v}; }
+    static CoordinateSet second(const Mesh& mesh) { return {&mesh.channels[0], &mesh.channels[1]}; }
+};
+
+TriangleAttributes attributes_of(const ProjectedMesh& source, const CoordinateSet& uv,
+                                 std::uint32_t triangle) {
     const Indices vertices = corners_of(source.mesh, triangle);
     TriangleAttributes t;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -64,20 +73,20 @@ TriangleAttributes attributes_of(const ProjectedMesh& source, std::uint32_t tria
         t.corner[k] = source.mesh.vertices[vertices[k]];
     }
     t.face_normal = source.mesh.face_normal.span()[triangle];
-    for (std::size_t k = 0; k < 3 && !source.mesh.u.empty(); ++k) {
-        t.u[k] = source.mesh.u[vertices[k]];
-        t.v[k] = source.mesh.v[vertices[k]];
+    for (std::size_t k = 0; k < 3 && !uv.u->empty(); ++k) {
+        t.u[k] = (*uv.u)[vertices[k]];
+        t.v[k] = (*uv.v)[vertices[k]];
     }
     if (!source.scene.is_moderate) keep_in_range(t);
     return t;
 }
 
-IndexedMesh indexed(const ProjectedMesh& source) {
+IndexedMesh indexed(const ProjectedMesh& source, const CoordinateSet& uv) {
     return {.indices = source.mesh.indices.data(),
             .projected = source.scene.vertices.data() + source.first_vertex,
             .vertices = source.mesh.vertices.data(),
             .face_normal = source.mesh.face_normal.span(),
-            .uv = {source.mesh.u.data(), source.mesh.v.data()}};
+            .uv = {uv.u->data(), uv.v->data()}};
 }
 
 /// Whole vectors are written; the next run overwrites the excess.
@@ -184,7 +193,8 @@ void clear_uv(SurfacePoints& points) {
 
 Interpolated interpolated_for(PointNeeds needs) {
     const bool has_points = needs.position || needs.vertex_normal || needs.uv;
-    if (needs.face_normal || needs.color || needs.derivatives || (needs.barycentric && has_points))
+    if (needs.face_normal || needs.color || needs.derivatives || needs.channels ||
+        (needs.barycentric && has_points))
         return needs.uv ? Interpolated::all : Interpolated::all_but_uv;
     if (needs.barycentric) return Interpolated::barycentric;
     return needs.uv ? Interpolated::position_and_normal_and_uv : Interpolated::position_and_normal;
@@ -196,9 +206,36 @@ class BatchInterpolation {
   public:
     BatchInterpolation(const ProjectedMesh& source, const PixelPositions& positions, Interpolated what,
                        SurfacePoints& points)
-        : source_(source), places_(positions), what_(what), points_(points) {}
+        : source_(source),
+          places_(positions),
+          what_(what),
+          uv_(CoordinateSet::first(source.mesh)),
+          points_(points) {}
 
-    void run() {
+    /// Only the second texture coordinates.
+    static BatchInterpolation second_uv(const ProjectedMesh& source, const PixelPositions& positions,
+                                        SurfacePoints& points) {
+        BatchInterpolation result(source, positions, Interpolated::uv, points);
+        result.uv_ = CoordinateSet::second(source.mesh);
+        return result;
+    }
+
+    void run(std::span<const std::uint32_t> triangles) {
+        if (places_.is_one_triangle) {
+            on_one_triangle(triangles[0], 0, points_.filled);
+        } else if (source_.scene.is_moderate) {
+            on_triangles();
+        } else {
+            // Each triangle has its own scale.
+            each_triangle(triangles, points_.filled,
+                          [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
+                              on_one_triangle(triangle, first, end);
+                          });
+        }
+    }
+
+  private:
+    void on_triangles() {
         for (std::size_t first = 0; first < points_.filled; first += k_lanes) {
             if (!places_.is_on_one(first)) places_.prefetch(source_.mesh, first, what_);
         }
@@ -212,7 +249,7 @@ class BatchInterpolation {
             if (is_one) {
                 on_one_triangle(triangle, first, end);
             } else {
-                interpolate_each(what_, indexed(source_), end - first, &places_.triangle[first],
+                interpolate_each(what_, indexed(source_, uv_), end - first, &places_.triangle[first],
                                  &places_.x[first], &places_.y[first], spans_from(first));
             }
             first = end;
@@ -220,24 +257,29 @@ class BatchInterpolation {
     }
 
     void on_one_triangle(std::uint32_t triangle, std::size_t first, std::size_t end) {
-        interpolate(what_, attributes_of(source_, triangle), end - first, &places_.x[first],
+        interpolate(what_, attributes_of(source_, uv_, triangle), end - first, &places_.x[first],
                     &places_.y[first], spans_from(first));
     }
 
-  private:
     InterpolatedSpans spans_from(std::size_t first) {
+        const bool is_second = what_ == Interpolated::uv;
+        auto& second = points_.second_footprint;
+        const auto span = [&](AlignedVector<float>& u, AlignedVector<float>& v) {
+            return Vec2Span{u.data(), v.data()}.from(first);
+        };
         return {points_.barycentric.span().from(first),
                 points_.position.span().from(first),
                 points_.vertex_normal.span().from(first),
                 points_.face_normal.span().from(first),
-                Vec2Span{points_.u.data(), points_.v.data()}.from(first),
-                Vec2Span{points_.dudx.data(), points_.dvdx.data()}.from(first),
-                Vec2Span{points_.dudy.data(), points_.dvdy.data()}.from(first)};
+                is_second ? span(points_.channels[0], points_.channels[1]) : span(points_.u, points_.v),
+                is_second ? span(second[0], second[1]) : span(points_.dudx, points_.dvdx),
+                is_second ? span(second[2], second[3]) : span(points_.dudy, points_.dvdy)};
     }
 
     const ProjectedMesh& source_;
     const PixelPositions& places_;
     Interpolated what_;
+    CoordinateSet uv_;
     SurfacePoints& points_;
 };
 
@@ -252,21 +294,14 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
         clear_uv(points);
         needs.uv = false;
     }
+    needs.channels = needs.channels && !source.mesh.channels.empty();
+    if (needs.channels) allocate_channels(source.mesh, points);
     const bool is_faceted = source.mesh.is_faceted && needs.vertex_normal;
     needs.face_normal = needs.face_normal || is_faceted;
     const PixelPositions positions(batch);
-    BatchInterpolation interpolation(source, positions, interpolated_for(needs), points);
-    if (positions.is_one_triangle) {
-        interpolation.on_one_triangle(batch.triangles[0], 0, points.filled);
-    } else if (source.scene.is_moderate) {
-        interpolation.run();
-    } else {
-        // Each triangle has its own scale.
-        each_triangle(batch.triangles, points.filled,
-                      [&](std::uint32_t triangle, std::size_t first, std::size_t end) {
-                          interpolation.on_one_triangle(triangle, first, end);
-                      });
-    }
+    BatchInterpolation(source, positions, interpolated_for(needs), points).run(batch.triangles);
+    const std::size_t blended = needs.channels && source.mesh.has_second_uv ? 2 : 0;
+    if (blended > 0) BatchInterpolation::second_uv(source, positions, points).run(batch.triangles);
     if (is_faceted) {
         const ConstVec3Span from = std::as_const(points.face_normal).span();
         const Vec3Span to = points.vertex_normal.span();
@@ -294,9 +329,11 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
                           std::fill(points.facing.begin() + static_cast<std::ptrdiff_t>(first),
                                     points.facing.begin() + static_cast<std::ptrdiff_t>(end), -1.0f);
                       }
-                      if (needs.more())
-                          blend_attributes(source.mesh, corners_of(source.mesh, triangle), needs, first,
-                                           end - first, points);
+                      if (!needs.more()) return;
+                      const Indices vertices = corners_of(source.mesh, triangle);
+                      blend_attributes(source.mesh, vertices, needs, first, end - first, points);
+                      if (needs.channels)
+                          blend_channels(source.mesh, vertices, blended, first, end - first, points);
                   });
 }
 

@@ -25,6 +25,13 @@ void clear_pixels(SurfacePoints& points) {
 void clear_footprint(SurfacePoints& points) {
     for (AlignedVector<float>* const array : {&points.dudx, &points.dvdx, &points.dudy, &points.dvdy})
         std::ranges::fill(*array, 0.0f);
+    for (AlignedVector<float>& array : points.second_footprint) std::ranges::fill(array, 0.0f);
+}
+
+/// Needs channels only of a mesh that has them, and makes room for these.
+void take_channels(const Mesh& mesh, PointNeeds& needs, SurfacePoints& points) {
+    needs.channels = needs.channels && !mesh.channels.empty();
+    if (needs.channels) allocate_channels(mesh, points);
 }
 
 /// Pads a batch that was assembled point by point with its last point.
@@ -48,6 +55,7 @@ void fill_up(PointNeeds needs, SurfacePoints& points) {
         fill(points.u);
         fill(points.v);
     }
+    if (needs.channels) std::ranges::for_each(points.channels, fill);
     if (needs.footprint) clear_footprint(points);
     if (needs.pixel) clear_pixels(points);
     if (needs.derivatives) {
@@ -66,6 +74,7 @@ void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> tr
                   SurfacePoints& points) {
     constexpr float k_third = 1.0f / 3.0f;
     points.has_color = needs.color = needs.color && !source.mesh.color.empty();
+    take_channels(source.mesh, needs, points);
     points.count = triangles.size();
     face_forward(points);
     set_triangles(needs, triangles, points);
@@ -81,6 +90,7 @@ void gather_faces(const ProjectedMesh& source, std::span<const std::uint32_t> tr
 void gather_places(const Mesh& mesh, std::span<const std::uint32_t> triangles, ConstVec3Span barycentric,
                    PointNeeds needs, SurfacePoints& points) {
     points.has_color = needs.color = needs.color && !mesh.color.empty();
+    take_channels(mesh, needs, points);
     points.count = points.filled = triangles.size();
     face_forward(points);
     set_triangles(needs, triangles, points);
@@ -94,6 +104,7 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
     const Mesh& mesh = source.mesh;
     needs.triangle = false;
     points.has_color = needs.color = needs.color && !mesh.color.empty();
+    take_channels(mesh, needs, points);
     points.count = vertices.size();
     points.has_triangle = false;
     face_forward(points);
@@ -111,6 +122,8 @@ void gather_vertices(const ProjectedMesh& source, std::span<const VertexSide> ve
             points.u[i] = mesh.u.empty() ? 0 : mesh.u[v];
             points.v[i] = mesh.v.empty() ? 0 : mesh.v[v];
         }
+        for (std::size_t c = 0; needs.channels && c < mesh.channels.size(); ++c)
+            points.channels[c][i] = mesh.channels[c][v];
         if (needs.derivatives) {
             points.dpdu.span().set(i, mesh.dpdu.empty() ? Vec3{} : mesh.dpdu.span()[v]);
             points.dpdv.span().set(i, mesh.dpdv.empty() ? Vec3{} : mesh.dpdv.span()[v]);

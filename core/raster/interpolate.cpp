@@ -102,8 +102,8 @@ struct RunLoop {
         const Vec3 n0 = t.corner[0].normal, n1 = t.corner[1].normal, n2 = t.corner[2].normal;
         const Fragment f(px[i], py[i], s0.x, s0.y, s0.w, s1.x, s1.y, s1.w, s2.x, s2.y, s2.w);
         if constexpr (has_faces(what) || what == Interpolated::barycentric) f.store(out, i);
-        if constexpr (what == Interpolated::barycentric) return;
         if constexpr (has_uv(what)) f.store_uv(out, i, t.u[0], t.u[1], t.u[2], t.v[0], t.v[1], t.v[2]);
+        if constexpr (!has_points(what)) return;
         out.position.x[i] = f.blend(p0.x, p1.x, p2.x);
         out.position.y[i] = f.blend(p0.y, p1.y, p2.y);
         out.position.z[i] = f.blend(p0.z, p1.z, p2.z);
@@ -124,7 +124,7 @@ struct CornerColumns {
     template <Interpolated what>
     [[gnu::always_inline]] void fetch(const IndexedMesh& mesh, const std::uint32_t (&vertex)[k_lanes]) {
         projected.gather([&](std::size_t i) { return &mesh.projected[vertex[i]].x; });
-        if constexpr (what == Interpolated::barycentric) return;
+        if constexpr (!has_points(what)) return;
         position.gather([&](std::size_t i) { return &mesh.vertices[vertex[i]].position.x; });
         normal.gather([&](std::size_t i) { return &mesh.vertices[vertex[i]].normal.x; });
     }
@@ -164,11 +164,11 @@ struct FetchLoop {
                                  c2.projected.real[0][lane], c2.projected.real[1][lane],
                                  c2.projected.real[2][lane]);
                 if constexpr (has_faces(what) || what == Interpolated::barycentric) f.store(out, i);
-                if constexpr (what == Interpolated::barycentric) continue;
                 if constexpr (has_uv(what)) {
                     f.store_uv(out, i, u[0][lane], u[1][lane], u[2][lane], v[0][lane], v[1][lane],
                                v[2][lane]);
                 }
+                if constexpr (!has_points(what)) continue;
                 out.position.x[i] = f.blend(c0.position, c1.position, c2.position, 0, lane);
                 out.position.y[i] = f.blend(c0.position, c1.position, c2.position, 1, lane);
                 out.position.z[i] = f.blend(c0.position, c1.position, c2.position, 2, lane);
@@ -199,6 +199,8 @@ void dispatch(Interpolated what, Run run) {
             return run.template operator()<Interpolated::all_but_uv>();
         case Interpolated::all:
             return run.template operator()<Interpolated::all>();
+        case Interpolated::uv:
+            return run.template operator()<Interpolated::uv>();
     }
 }
 

@@ -40,8 +40,11 @@ struct CANDELA_EXPORT SurfacePoints {
     AlignedVector<float> u, v;                    // filled if requested and the mesh has them, otherwise zero
     AlignedVector<float> dudx, dvdx, dudy, dvdy;  // per pixel to the right and downwards; zero if unknown
     Vec3Arrays dpdu, dpdv;
-    Vec3Arrays color;                              // the mesh's; filled if has_color
-    bool has_color = false;                        // the mesh has colours, and they were requested
+    Vec3Arrays color;                            // the mesh's; filled if has_color
+    bool has_color = false;                      // the mesh has colours, and they were requested
+    std::vector<AlignedVector<float>> channels;  // the mesh's, if requested
+    /// Like dudx, dvdx, dudy, dvdy, of the mesh's second texture coordinates.
+    std::array<AlignedVector<float>, 4> second_footprint;
     std::array<Vec3Arrays, 3> corner_position;     // of each point's triangle; empty until first requested
     std::array<Vec3Arrays, 3> corner_normal;       // unit
     std::vector<AlignedVector<float>> parameters;  // of the material, where they vary (candela.shading)
@@ -60,9 +63,10 @@ struct PointNeeds {
     bool footprint = false;       // how uv change from pixel to pixel; with uv, at fragments
     bool derivatives = false;
     bool triangle = false;  // of fragments, faces and places; vertices have none
+    bool channels = false;  // of a mesh that has further ones; with `footprint`, that of its second uv, too
 
     /// Whether anything is needed that is not interpolated in the same pass.
-    constexpr bool more() const { return color || uv || derivatives || triangle; }
+    constexpr bool more() const { return color || uv || derivatives || triangle || channels; }
 };
 
 }  // namespace candela

@@ -263,13 +263,15 @@ class SceneBuilder {
             const Object& object = scene_.objects[i];
             const PointNeeds needs = has_surface(i) ? built_.objects[i].surface.needs() : PointNeeds{};
             if (shapes[i] != nullptr) {
+                const std::vector<VertexChannel> channels = vertex_channels_of(object);
                 guarded(object, PluginKind::shape, object.shape.name, [&] {
                     placed_[i] = place(*shapes[i],
                                        {.uv = needs.uv,
                                         .derivatives = needs.derivatives,
                                         .color = true,
                                         .facets = has_surface(i) && takes_facets(built_.objects[i].surface),
-                                        .color_management = encoding()},
+                                        .color_management = encoding(),
+                                        .channels = channels},
                                        object.transform, [this](double part) { tell(part); });
                 });
                 shapes[i].reset();  // frees a file's triangles before the next file is read
@@ -296,7 +298,9 @@ class SceneBuilder {
             old->shading != object.shading || old->common.is_see_through() != object.common.is_see_through())
             return false;
         RenderObject& solid = before_->built.objects[i];
-        if (solid.mesh.u.empty() == needs.uv || solid.mesh.dpdu.empty() == needs.derivatives) return false;
+        if (solid.mesh.u.empty() == needs.uv || solid.mesh.dpdu.empty() == needs.derivatives ||
+            !std::ranges::equal(vertex_channels_of(object), vertex_channels_of(*old)))
+            return false;
         built_.objects[i].mesh = std::move(solid.mesh);
         built_.objects[i].tree = std::move(solid.tree);
         warnings_[i] = std::move(before_->warnings[i]);

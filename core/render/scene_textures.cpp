@@ -2,9 +2,11 @@ module;
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 module candela.render;
 
@@ -51,10 +53,9 @@ const std::shared_ptr<const MipMap>& SceneTextures::opacity_map(const std::strin
 
 PlacedTexture SceneTextures::placed(const ParameterTexture& texture, const Parameter& parameter) {
     if (texture.channel == TextureChannel::alpha)
-        return {"opacity " + texture.file, opacity_map(texture.file), texture.wrap, texture.transform};
+        return {"opacity " + texture.file, opacity_map(texture.file), texture.placing};
     const ColorEncoding decoding = encoding_of(texture, parameter, of_scene_);
-    return {key_of(texture.file, decoding), picture(texture.file, decoding, texture.place), texture.wrap,
-            texture.transform};
+    return {key_of(texture.file, decoding), picture(texture.file, decoding, texture.place), texture.placing};
 }
 
 void SceneTextures::make(const Object& object, SurfaceModels& surface) {
@@ -67,6 +68,7 @@ void SceneTextures::make(const Object& object, SurfaceModels& surface) {
         return result;
     };
     MaterialTextures::add_all(object, place, surface.material_textures, surface.opacity_textures);
+    surface.has_channels = !vertex_channels_of(object).empty();
 }
 
 void SceneTextures::make_normal_map(const Object& object, const NormalMap& map, SurfaceModels& surface) {
@@ -84,24 +86,31 @@ void SceneTextures::make_normal_map(const Object& object, const NormalMap& map, 
         std::string name = key_of(map.file, ColorEncoding::none);
         std::shared_ptr<const MipMap> texels;
         if (map.has_heights) {
-            name = fmt::format("{} {}", map.wrap == TextureWrap::repeat ? "slopes" : "slopes, clamped", name);
+            const std::array<TextureWrap, 2> wraps = map.placing.wraps();
+            name =
+                fmt::format("slopes {} {} {}", static_cast<int>(wraps[0]), static_cast<int>(wraps[1]), name);
             auto& slopes = pictures_[name];
-            if (slopes == nullptr) slopes = read_bump_map(map.file, registry_, map.wrap).mip_map;
+            if (slopes == nullptr) slopes = read_bump_map(map.file, registry_, wraps).mip_map;
             texels = slopes;
         } else {
             texels = picture(map.file, ColorEncoding::none, map.place);
         }
         if (texels == nullptr) return;
-        surface.material_textures.add(map, {name, texels, map.wrap, map.transform}, texels->width(),
-                                      texels->height());
+        surface.material_textures.add(map, {name, texels, map.placing}, texels->width(), texels->height());
     });
 }
 
 void require_texture_coordinates(const Object& object, Diagnostics& diagnostics) {
-    const auto& textures = object.textures.empty() ? object.common.textures : object.textures;
-    const ParameterTexture* const first = object.color_texture ? &*object.color_texture
-                                          : textures.empty()   ? nullptr
-                                                               : &textures.front();
+    std::vector<const ParameterTexture*> pictures;
+    if (object.color_texture) pictures.push_back(&*object.color_texture);
+    for (const auto* const textures : {&object.textures, &object.common.textures})
+        for (const ParameterTexture& texture : *textures) pictures.push_back(&texture);
+    // The shape has reported missing second ones.
+    std::erase_if(pictures, [](const ParameterTexture* texture) {
+        return texture->file.empty() || texture->placing.uv != 0;
+    });
+    const ParameterTexture* const first = pictures.empty() ? nullptr : pictures.front();
+    if (first == nullptr && (!object.normal_map || object.normal_map->placing.uv != 0)) return;
     const SourceLocation& place = first != nullptr ? first->place : object.normal_map->place;
     const std::string what = first != nullptr ? fmt::format("the texture of '{}'", first->parameter)
                              : object.normal_map->has_heights ? "bump_map"

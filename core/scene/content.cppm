@@ -165,7 +165,10 @@ struct LightSource {
 enum class TextureWrap : int {
     repeat,  // the picture again
     clamp,   // the colours at its edge
+    mirror,  // the picture again, every other time reversed
 };
+/// The same along v, if that differs.
+enum class TextureWrapV : int { same, repeat, clamp, mirror };
 
 /// The channels of a picture that a parameter takes.
 enum class TextureChannel : int {
@@ -192,24 +195,42 @@ struct TextureTransform {
     friend bool operator==(const TextureTransform&, const TextureTransform&) = default;
 };
 
+/// Where a picture lies on a surface.
+struct TexturePlacing {
+    int uv = 0;  // the set of the mesh's texture coordinates: 0 or 1
+    TextureTransform transform{};
+    TextureWrap wrap = TextureWrap::repeat;
+    TextureWrapV wrap_v = TextureWrapV::same;
+
+    /// Along u and v.
+    inline std::array<TextureWrap, 2> wraps() const {
+        const bool is_same = wrap_v == TextureWrapV::same;
+        return {wrap, is_same ? wrap : static_cast<TextureWrap>(static_cast<int>(wrap_v) - 1)};
+    }
+    friend inline bool operator==(const TexturePlacing& a, const TexturePlacing& b) {
+        return a.uv == b.uv && a.transform == b.transform && a.wraps() == b.wraps();
+    }
+};
+
 /// A parameter of an object's material, or its colour, whose values come from a picture: offset + scale *
-/// texel at each point, clamped to the parameter's range.
+/// texel at each point, clamped to the parameter's range; or from an attribute of the mesh's vertices
+/// instead of the texel.
 struct ParameterTexture {
     std::string parameter{};
-    std::string file{};  // absolute path
+    std::string file{};       // absolute path
+    std::string attribute{};  // its name, instead of a file
     TextureChannel channel = TextureChannel::rgb;
     Vec3 scale{1, 1, 1};
     Vec3 offset{};
-    TextureWrap wrap = TextureWrap::repeat;
     TextureEncoding encoding = TextureEncoding::automatic;
-    TextureTransform transform{};
+    TexturePlacing placing{};
     SourceLocation place{};
 
     /// Ignores positions in the file.
     friend inline bool operator==(const ParameterTexture& a, const ParameterTexture& b) {
-        return a.parameter == b.parameter && a.file == b.file && a.channel == b.channel &&
-               a.scale == b.scale && a.offset == b.offset && a.wrap == b.wrap && a.encoding == b.encoding &&
-               a.transform == b.transform;
+        return a.parameter == b.parameter && a.file == b.file && a.attribute == b.attribute &&
+               a.channel == b.channel && a.scale == b.scale && a.offset == b.offset &&
+               a.encoding == b.encoding && a.placing == b.placing;
     }
 };
 
@@ -219,14 +240,13 @@ struct NormalMap {
     bool has_heights = false;  // above the surface, in its red channel; otherwise normals: 2 * texel - 1
                                // along the directions of growing u and v, and along the normal
     float scale = 1;           // of the normals' first two numbers; of heights: metres from black to white
-    TextureWrap wrap = TextureWrap::repeat;
-    TextureTransform transform{};
+    TexturePlacing placing{};
     SourceLocation place{};
 
     /// Ignores positions in the file.
     friend inline bool operator==(const NormalMap& a, const NormalMap& b) {
-        return a.file == b.file && a.has_heights == b.has_heights && a.scale == b.scale && a.wrap == b.wrap &&
-               a.transform == b.transform;
+        return a.file == b.file && a.has_heights == b.has_heights && a.scale == b.scale &&
+               a.placing == b.placing;
     }
 };
 

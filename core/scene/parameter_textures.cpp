@@ -122,10 +122,13 @@ std::optional<ParameterTexture> ModelChooser::texture_in(const TableNode& table,
                                                          const SourceLocation& place) {
     Diagnostics& diagnostics = tables_.diagnostics();
     const std::size_t errors = diagnostics.error_count();
-    const Table<ParameterTexture>& keys = own_tables().texture;
+    const bool is_attribute = table.find("attribute") != nullptr;
+    const Table<ParameterTexture>& keys = is_attribute ? own_tables().attribute : own_tables().texture;
     TableContext context{where, {}, place};
     context.lists_keys = true;
-    report_unknown_keys(table, names_in(*keys.schema(), {"transform"}), context, diagnostics);
+    report_unknown_keys(table,
+                        is_attribute ? names_in(*keys.schema()) : names_in(*keys.schema(), {"transform"}),
+                        context, diagnostics);
     ParameterTexture texture{.parameter = parameter.name};
     keys.assign(&table, read_parameters(table, keys.schema(), context, diagnostics).set, texture);
     const auto require_three = [&](const char* key, const Vec3& value) {
@@ -133,9 +136,13 @@ std::optional<ParameterTexture> ModelChooser::texture_in(const TableNode& table,
             diagnostics.error(table.find(key)->node.place,
                               fmt::format("'{}' of {} has three numbers; the parameter has one", key, where));
     };
+    if (is_attribute && texture.attribute.empty())
+        diagnostics.error(
+            table.find("attribute")->node.place,
+            fmt::format("'attribute' of {} is empty; expected its name in the mesh file", where));
     require_three("scale", texture.scale);
     require_three("offset", texture.offset);
-    read_transform(table, context, diagnostics, texture.transform);
+    if (!is_attribute) read_transform(table, context, diagnostics, texture.placing.transform);
     if (diagnostics.error_count() != errors) return std::nullopt;
     return texture;
 }

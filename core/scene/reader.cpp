@@ -376,9 +376,12 @@ std::vector<std::filesystem::path> input_files(const SceneDraft& draft) {
     if (!scene.image.environment.empty()) files.emplace_back(scene.image.environment);
     for (const LightSource& light : scene.lights) add_files(light.model, files);
     for (const Object& object : scene.objects) {
-        if (object.color_texture) files.emplace_back(object.color_texture->file);
+        const auto add_picture = [&](const ParameterTexture& texture) {
+            if (!texture.file.empty()) files.emplace_back(texture.file);
+        };
+        if (object.color_texture) add_picture(*object.color_texture);
         for (const auto* const textures : {&object.textures, &object.common.textures})
-            for (const ParameterTexture& texture : *textures) files.emplace_back(texture.file);
+            std::ranges::for_each(*textures, add_picture);
         if (object.normal_map) files.emplace_back(object.normal_map->file);
         for (const Model* const model : {&object.shape, &object.shading, &object.reflection})
             add_files(*model, files);

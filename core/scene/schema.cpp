@@ -194,11 +194,36 @@ Table<TextureTransform> texture_transform() {
 Field<NormalMap> picture_of_normals(const char* meaning) {
     return field(Type::file, "texture", meaning, &NormalMap::file).required().placed(&NormalMap::place);
 }
-Field<NormalMap> wrap_of_normals() {
-    return choice({"repeat", "clamp"}, "wrap",
-                  "beyond the picture's edges: repeat it, or continue the values at its edges",
-                  &NormalMap::wrap)
-        .omitted_by_default();
+
+/// Whether a picture may be repeated in a mirror: one of heights would need other slopes there.
+enum class Mirroring : bool { no, yes };
+
+/// The keys of a picture that place it on a surface.
+template <class T>
+std::vector<Field<T>> placing(Mirroring mirroring) {
+    std::vector<std::string> wraps = {"repeat", "clamp"}, of_v = {"same", "repeat", "clamp"};
+    const char* meaning = "beyond the picture's edges: repeat it, or continue the values at its edges";
+    if (mirroring == Mirroring::yes) {
+        wraps.emplace_back("mirror");
+        of_v.emplace_back("mirror");
+        meaning =
+            "beyond the picture's edges: repeat it, continue the values at its edges, or repeat it, "
+            "reversed every other time";
+    }
+    return {choice(wraps, "wrap", meaning, &T::placing, &TexturePlacing::wrap).omitted_by_default(),
+            choice(of_v, "wrap_v", "beyond the picture's upper and lower edges; same: as wrap says",
+                   &T::placing, &TexturePlacing::wrap_v)
+                .omitted_by_default(),
+            field(Type::integer, "uv", "the set of texture coordinates; 1: the second one of a glTF file",
+                  &T::placing, &TexturePlacing::uv)
+                .range(0, 1)
+                .omitted_by_default()};
+}
+
+template <class T>
+std::vector<Field<T>> with_placing(std::vector<Field<T>> fields, Mirroring mirroring = Mirroring::yes) {
+    for (Field<T>& field : placing<T>(mirroring)) fields.push_back(std::move(field));
+    return fields;
 }
 
 Table<NormalMap> normal_map() {
@@ -207,10 +232,10 @@ Table<NormalMap> normal_map() {
              .meaning = "a picture of normals, 2 * texel - 1 each, which tilt those of a shading model that "
                         "evaluates light per fragment; optional",
              .tables = {texture_transform().about()}},
-            {picture_of_normals("red: along u, green: along v, blue: along the surface's normal"),
-             field(Type::real, "scale", "multiplies the normals' parts along u and v", &NormalMap::scale)
-                 .omitted_by_default(),
-             wrap_of_normals()}};
+            with_placing<NormalMap>(
+                {picture_of_normals("red: along u, green: along v, blue: along the surface's normal"),
+                 field(Type::real, "scale", "multiplies the normals' parts along u and v", &NormalMap::scale)
+                     .omitted_by_default()})};
 }
 
 Table<NormalMap> bump_map() {
@@ -219,9 +244,10 @@ Table<NormalMap> bump_map() {
              .meaning = "a picture of heights above the surface, whose slopes tilt the normals of a shading "
                         "model that evaluates light per fragment; optional, instead of normal_map",
              .tables = {texture_transform().about()}},
-            {picture_of_normals("its red channel has the heights"),
-             field(Type::real, "height", "of white above black", &NormalMap::scale).unit("m").required(),
-             wrap_of_normals()}};
+            with_placing<NormalMap>(
+                {picture_of_normals("its red channel has the heights"),
+                 field(Type::real, "height", "of white above black", &NormalMap::scale).unit("m").required()},
+                Mirroring::no)};
 }
 
 Table<Object> object() {
@@ -300,36 +326,59 @@ Table<CommonMaterial> material() {
              .omitted_by_default()}};
 }
 
+std::vector<Field<ParameterTexture>> values_of_texture(const char* channel, const char* scale,
+                                                       const char* offset) {
+    return {choice({"rgb", "r", "g", "b", "a"}, "channel", channel, &ParameterTexture::channel)
+                .omitted_by_default(),
+            field(Type::rgb, "scale", scale, &ParameterTexture::scale).omitted_by_default(),
+            field(Type::rgb, "offset", offset, &ParameterTexture::offset).omitted_by_default()};
+}
+
 Table<ParameterTexture> texture() {
-    return {
-        {.name = "texture",
-         .title = "a texture",
-         .meaning =
-             "a picture from which an object's colour, or a parameter of its material, takes its value "
-             "at each point: offset + scale * texel, within the parameter's range",
-         .tables = {texture_transform().about()}},
-        {field(Type::file, "texture", "the picture, placed by the shape's texture coordinates",
-               &ParameterTexture::file)
-             .required()
-             .placed(&ParameterTexture::place),
-         choice({"rgb", "r", "g", "b", "a"}, "channel",
-                "what the parameter takes: all channels, or one, where a is the opacity of the picture's "
-                "pixels; a parameter with one number takes the red one unless told",
-                &ParameterTexture::channel)
-             .omitted_by_default(),
-         field(Type::rgb, "scale", "multiplies the picture; one number or three", &ParameterTexture::scale)
-             .omitted_by_default(),
-         field(Type::rgb, "offset", "added to the picture; one number or three", &ParameterTexture::offset)
-             .omitted_by_default(),
-         choice({"repeat", "clamp"}, "wrap",
-                "beyond the picture's edges: repeat it, or continue the values at its edges",
-                &ParameterTexture::wrap)
-             .omitted_by_default(),
-         choice({"auto", "linear", "srgb"}, "encoding",
-                "what its numbers mean: linear values, or sRGB like those of a photograph; auto: sRGB "
-                "where a parameter takes three channels, linear where it takes one",
-                &ParameterTexture::encoding)
-             .omitted_by_default()}};
+    std::vector<Field<ParameterTexture>> fields = {
+        field(Type::file, "texture", "the picture, placed by the shape's texture coordinates",
+              &ParameterTexture::file)
+            .required()
+            .placed(&ParameterTexture::place)};
+    for (auto& value : values_of_texture(
+             "what the parameter takes: all channels, or one, where a is the opacity of the picture's "
+             "pixels; a parameter with one number takes the red one unless told",
+             "multiplies the picture; one number or three", "added to the picture; one number or three"))
+        fields.push_back(std::move(value));
+    fields = with_placing(std::move(fields));
+    fields.push_back(
+        choice({"auto", "linear", "srgb"}, "encoding",
+               "what its numbers mean: linear values, or sRGB like those of a photograph; auto: sRGB "
+               "where a parameter takes three channels, linear where it takes one",
+               &ParameterTexture::encoding)
+            .omitted_by_default());
+    return {{.name = "texture",
+             .title = "a texture",
+             .meaning =
+                 "a picture from which an object's colour, or a parameter of its material, takes its value "
+                 "at each point: offset + scale * texel, within the parameter's range",
+             .tables = {texture_transform().about()}},
+            std::move(fields)};
+}
+
+Table<ParameterTexture> vertex_attribute() {
+    std::vector<Field<ParameterTexture>> fields = {
+        field(Type::text, "attribute",
+              "its name in the mesh file, such as _wear in glTF or wear in PLY; color: the vertex colours",
+              &ParameterTexture::attribute)
+            .required()
+            .placed(&ParameterTexture::place)};
+    for (auto& value : values_of_texture(
+             "which of its numbers the parameter takes: the first three, or one; a parameter with one "
+             "number takes the first unless told",
+             "multiplies the attribute; one number or three", "added to it; one number or three"))
+        fields.push_back(std::move(value));
+    return {{.name = "attribute",
+             .title = "a vertex attribute",
+             .meaning = "numbers of a mesh's vertices from which an object's colour, or a parameter of its "
+                        "material, takes its value: offset + scale * attribute, interpolated over "
+                        "triangles, within the parameter's range"},
+            std::move(fields)};
 }
 
 Table<Orbit> orbit() {
@@ -389,6 +438,7 @@ const OwnTables& own_tables() {
                                     .bump_map = bump_map(),
                                     .material = material(),
                                     .texture = texture(),
+                                    .attribute = vertex_attribute(),
                                     .texture_transform = texture_transform(),
                                     .orbit = orbit(),
                                     .track = track(),
@@ -438,6 +488,7 @@ bool takes_texture(const Parameter& of_material) {
 }
 
 const TableSchema& texture_schema() { return own_tables().texture.about(); }
+const TableSchema& vertex_attribute_schema() { return own_tables().attribute.about(); }
 
 bool takes_texture(const Manifest& plugin, const Parameter& parameter) {
     return plugin.kind == PluginKind::reflection && plugin.surface_needs.varying &&

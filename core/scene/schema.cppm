@@ -43,7 +43,9 @@ CANDELA_EXPORT std::span<const TableSchema> scene_schema();
 
 /// The table that a parameter of a reflection model may have instead of a value.
 CANDELA_EXPORT const TableSchema& texture_schema();
-/// Whether a parameter of a plugin may have it.
+/// The one that takes its value from the vertices.
+CANDELA_EXPORT const TableSchema& vertex_attribute_schema();
+/// Whether a parameter of a plugin may have them.
 CANDELA_EXPORT bool takes_texture(const Manifest& plugin, const Parameter& parameter);
 
 /// The keys of [object.material] that belong to every material, unless its model has a parameter of that

@@ -72,7 +72,7 @@ std::optional<NormalMap> normal_map_in(const TableNode& object, const std::strin
     NormalMap map{.has_heights = has_heights};
     report_unknown_keys(*table, names_in(*keys.schema(), {"transform"}), context, diagnostics);
     keys.assign(table, read_parameters(*table, keys.schema(), context, diagnostics).set, map);
-    read_transform(*table, context, diagnostics, map.transform);
+    read_transform(*table, context, diagnostics, map.placing.transform);
     if (diagnostics.error_count() != errors) return std::nullopt;
     return map;
 }

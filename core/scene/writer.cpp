@@ -185,8 +185,7 @@ class Writer {
             if (key == "shading" && object.shading == shading_) continue;
             if (key == "reflection" && object.reflection.name == reflection_) continue;
             if (key == "color" && object.color_texture) {
-                add(key, inline_table(own_tables().texture, *object.color_texture,
-                                      object.color_texture->transform));
+                add(key, text_of(*object.color_texture));
                 continue;
             }
             add(field, object);
@@ -195,7 +194,7 @@ class Writer {
         if (object.normal_map) {
             const NormalMap& map = *object.normal_map;
             const Table<NormalMap>& keys = map.has_heights ? own_tables().bump_map : own_tables().normal_map;
-            add(keys.about().name, inline_table(keys, map, map.transform));
+            add(keys.about().name, inline_table(keys, map, map.placing.transform));
         }
         end();
         if (object.reflection.parameters.schema().empty() && object.common == CommonMaterial{}) return;
@@ -214,9 +213,13 @@ class Writer {
 
     static std::map<std::string, std::string> texts_of(const std::vector<ParameterTexture>& textures) {
         std::map<std::string, std::string> texts;
-        for (const ParameterTexture& texture : textures)
-            texts.emplace(texture.parameter, inline_table(own_tables().texture, texture, texture.transform));
+        for (const ParameterTexture& texture : textures) texts.emplace(texture.parameter, text_of(texture));
         return texts;
+    }
+
+    static std::string text_of(const ParameterTexture& texture) {
+        return inline_table(texture.attribute.empty() ? own_tables().texture : own_tables().attribute,
+                            texture, texture.placing.transform);
     }
 
     /// An inline table of what differs from the defaults.

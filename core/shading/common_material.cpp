@@ -61,7 +61,7 @@ void find_opacity(const SurfaceModels& surface, SurfacePoints& points, float* op
         return;
     }
     if (points.parameters.empty()) points.parameters.emplace_back(k_batch_size);
-    evaluate(surface.opacity_textures, points.filled, coordinates_of(points), points.parameters);
+    evaluate(surface.opacity_textures, points.filled, textured(points), points.parameters);
     const float* const found = points.parameters.front().data();
     const float cutoff = surface.opacity_cutoff;
     for (std::size_t i = 0; i < points.count; ++i)

@@ -78,14 +78,14 @@ struct BumpMapLoop {
 };
 
 /// Four channels per texel, like `heights`.
-MipMap::Texels slopes_of(const DecodedTexels& heights, TextureWrap wrap) {
-    const auto neighbor = [wrap](int x, int size) {
+MipMap::Texels slopes_of(const DecodedTexels& heights, const std::array<TextureWrap, 2>& wraps) {
+    const auto neighbor = [](int x, int size, TextureWrap wrap) {
         return wrap == TextureWrap::repeat ? (x + size) % size : std::clamp(x, 0, size - 1);
     };
     const auto height = [&](int x, int y) {
-        const auto texel =
-            static_cast<std::size_t>(neighbor(y, heights.height)) * static_cast<std::size_t>(heights.width) +
-            static_cast<std::size_t>(neighbor(x, heights.width));
+        const auto texel = static_cast<std::size_t>(neighbor(y, heights.height, wraps[1])) *
+                               static_cast<std::size_t>(heights.width) +
+                           static_cast<std::size_t>(neighbor(x, heights.width, wraps[0]));
         return static_cast<int>(heights.texels[4 * texel]);
     };
     constexpr int k_none = 32768, k_most = 65535;
@@ -108,9 +108,10 @@ MipMap::Texels slopes_of(const DecodedTexels& heights, TextureWrap wrap) {
 
 }  // namespace
 
-TextureImage read_bump_map(const std::filesystem::path& file, Registry& registry, TextureWrap wrap) {
+TextureImage read_bump_map(const std::filesystem::path& file, Registry& registry,
+                           const std::array<TextureWrap, 2>& wraps) {
     const DecodedTexels heights = read_texels(file, registry, ColorEncoding::none);
-    return {std::make_shared<const MipMap>(heights.width, heights.height, slopes_of(heights, wrap)),
+    return {std::make_shared<const MipMap>(heights.width, heights.height, slopes_of(heights, wraps)),
             heights.was_clamped};
 }
 

@@ -60,6 +60,7 @@ struct CANDELA_EXPORT SurfaceModels {
     float opacity = 1;    // of all points, where no texture gives it
     float opacity_cutoff = 0;             // above 0: points with less are absent, the others opaque
     MaterialTextures opacity_textures{};  // with one number, or none
+    bool has_channels = false;            // these textures need channels of the vertices
     std::string shading_plugin;
     std::unique_ptr<ShadingModel> shading;
     ShadingNeeds shading_needs{};
@@ -77,6 +78,7 @@ struct CANDELA_EXPORT SurfaceModels {
     void set_reflection(Registry& registry, const Model& model, ColorEncoding encoding);
 
     bool has_textures() const { return material_textures.arrays() > 0; }
+    bool has_pictures() const { return material_textures.has_pictures() || opacity_textures.has_pictures(); }
 
     bool emits() const { return emission != Rgb{}; }
     bool is_occluded() const {

@@ -171,22 +171,30 @@ PointNeeds SurfaceModels::needs() const {
     return {.face_normal = shading_needs.face_normal,
             .vertex_normal = shading_needs.vertex_normal,
             .barycentric = shading_needs.barycentric,
-            .uv = shading_needs.uv || reflection_needs.uv || has_textures() || opacity_textures.arrays() > 0,
-            .footprint = has_textures() || opacity_textures.arrays() > 0,
+            .uv = shading_needs.uv || reflection_needs.uv || has_pictures(),
+            .footprint = has_pictures(),
             .derivatives =
                 shading_needs.derivatives || reflection_needs.tangent || material_textures.normal.has_value(),
-            .triangle = shading_needs.triangle};
+            .triangle = shading_needs.triangle,
+            .channels = has_channels};
 }
 
-TextureCoordinates coordinates_of(const SurfacePoints& points) {
-    return {.uv = {points.u.data(), points.v.data()},
-            .per_x = {points.dudx.data(), points.dvdx.data()},
-            .per_y = {points.dudy.data(), points.dvdy.data()}};
+TexturedPoints textured(const SurfacePoints& points) {
+    TexturedPoints at{.channels = points.channels};
+    at.uv[0] = {.uv = {points.u.data(), points.v.data()},
+                .per_x = {points.dudx.data(), points.dvdx.data()},
+                .per_y = {points.dudy.data(), points.dvdy.data()}};
+    const auto& second = points.second_footprint;
+    if (points.channels.size() >= 2)
+        at.uv[1] = {.uv = {points.channels[0].data(), points.channels[1].data()},
+                    .per_x = {second[0].data(), second[1].data()},
+                    .per_y = {second[2].data(), second[3].data()}};
+    return at;
 }
 
 void apply_textures(const SurfaceModels& surface, SurfacePoints& points) {
     if (!surface.has_textures()) return;
-    const TextureCoordinates at = coordinates_of(points);
+    const TexturedPoints at = textured(points);
     const std::size_t arrays = surface.material_textures.arrays();
     while (points.parameters.size() < arrays) points.parameters.emplace_back(k_batch_size);
     evaluate(surface.material_textures, points.filled, at, points.parameters);

@@ -46,7 +46,8 @@ inline constexpr PointNeeds k_opacity_needs{.position = false,
                                             .barycentric = false,
                                             .color = false,
                                             .uv = true,
-                                            .footprint = true};
+                                            .footprint = true,
+                                            .channels = true};
 
 /// Evaluates light, batch by batch. Owns the batch's arrays: use one per thread.
 class CANDELA_EXPORT SurfaceShader {

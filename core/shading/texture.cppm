@@ -35,6 +35,16 @@ struct TextureCoordinates {
     ConstVec2Span per_y;  // and per pixel downwards
 };
 
+/// The texture coordinates and vertex channels of a batch.
+struct TexturedPoints {
+    std::array<TextureCoordinates, 2> uv{};            // by set
+    std::span<const AlignedVector<float>> channels{};  // of the mesh, as vertex_channels_of() names them
+};
+
+/// The numbers of its mesh's vertices that an object's textures need: the second texture coordinates first,
+/// if one is placed by them, then those of attributes. They refer to the object's names.
+CANDELA_EXPORT std::vector<VertexChannel> vertex_channels_of(const Object& object);
+
 /// A picture and its mip levels, each half as wide and high as the one before, down to a single texel
 /// (Williams 1983, "Pyramidal parametrics"). Texels are intensities, linear if the scene's are. Immutable;
 /// any thread.
@@ -76,20 +86,22 @@ class CANDELA_EXPORT MipMap {
 struct PlacedTexture {
     std::string key{};  // of the picture: its file, and how it was decoded
     std::shared_ptr<const MipMap> picture{};
-    TextureWrap wrap = TextureWrap::repeat;
-    TextureTransform transform{};
+    TexturePlacing placing{};
 
-    /// Column and row, from the top left, of the picture's texel at these texture coordinates.
+    /// Column and row, from the top left, of the picture's texel at these coordinates of its set.
     CANDELA_EXPORT std::array<int, 2> texel_at(float u, float v) const noexcept;
 };
 
-/// A number of a material that comes from a picture: offset + scale * texel, from `minimum` to `maximum`. In
-/// the units in which plugins receive it.
+/// A number of a material that comes from a picture: offset + scale * texel, from `minimum` to `maximum`; or
+/// from a channel of the vertices instead. In the units in which plugins receive it.
 struct TexturedNumber {
+    static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+
     std::size_t texture = 0;
     std::size_t texel_channel = 0;
-    std::size_t parameter = 0;  // of the model, if it is one of its numbers
-    std::size_t channel = 0;    // of the parameter
+    std::size_t vertex_channel = k_none;  // among vertex_channels_of() the object
+    std::size_t parameter = 0;            // of the model, if it is one of its numbers
+    std::size_t channel = 0;              // of the parameter
     float scale = 1, offset = 0;
     float minimum = 0, maximum = 1;
 };
@@ -117,7 +129,9 @@ struct MaterialTextures {
     /// How many arrays evaluate() writes.
     std::size_t arrays() const { return numbers.size() + (normal ? 3u : 0u); }
 
-    /// The picture of a parameter's texture; nothing if it cannot be used.
+    bool has_pictures() const { return !textures.empty(); }
+
+    /// The picture of a parameter's texture; nothing if it cannot be used. Not called for attributes.
     using Placing = std::function<std::optional<PlacedTexture>(const ParameterTexture&, const Parameter&)>;
     /// Adds the textures of an object's material and colour to `material`, and to `opacity` that of its
     /// opacity, which is found before the others.
@@ -129,14 +143,9 @@ struct MaterialTextures {
 
   private:
     std::size_t number_of(const PlacedTexture& picture);
-    /// Add the numbers of the model's parameter `index`, and of one of CommonMaterial or the colour, after
-    /// all of the model's.
+    /// Adds the numbers of parameter `index` of the model, or of one of CommonMaterial or the colour.
     void add(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
-             const PlacedTexture& picture);
-    void add_common(const ParameterTexture& texture, const PlacedTexture& picture);
-    void add_color(const ParameterTexture& texture, const PlacedTexture& picture);
-    void add_numbers(const ParameterTexture& texture, const Parameter& parameter, std::size_t index,
-                     const PlacedTexture& picture);
+             std::span<const VertexChannel> channels, const Placing& place);
 };
 
 /// The matrix of a transform, row by row: u' = m[0] u + m[1] v + m[2], v' with the other three.
@@ -144,8 +153,8 @@ CANDELA_EXPORT std::array<float, 6> placing_of(const TextureTransform& transform
 
 /// Evaluates numbers at `count` points of a batch: value i of number k is values[k][i]. Behind them, the
 /// three channels of the picture that tilts normals.
-CANDELA_EXPORT void evaluate(const MaterialTextures& textures, std::size_t count,
-                             const TextureCoordinates& at, std::span<AlignedVector<float>> values);
+CANDELA_EXPORT void evaluate(const MaterialTextures& textures, std::size_t count, const TexturedPoints& at,
+                             std::span<AlignedVector<float>> values);
 
 /// Whether the parameter's picture is decoded like colours of the scene, or as another encoding says.
 CANDELA_EXPORT ColorEncoding encoding_of(const ParameterTexture& texture, const Parameter& parameter,
@@ -167,8 +176,9 @@ CANDELA_EXPORT TextureImage read_opacity_map(const std::filesystem::path& file, 
 
 /// The slopes of a picture's heights, those of its red channel, from texel to texel: in the red and green
 /// channels, along growing u and v, where k_level stands for none, and a level of 1 for an ascent by 1.
+/// `wraps`: none is mirrored.
 CANDELA_EXPORT TextureImage read_bump_map(const std::filesystem::path& file, Registry& registry,
-                                          TextureWrap wrap);
+                                          const std::array<TextureWrap, 2>& wraps);
 inline constexpr float k_level = 32768.0f / 65535.0f;
 
 }  // namespace candela

@@ -32,8 +32,19 @@ CANDELA_KERNEL_INLINE float within(float x, float low, float high) {
     return x > low ? kernel::min(x, high) : low;
 }
 
-CANDELA_KERNEL_INLINE float wrapped(float x, bool repeats) {
-    return within(repeats ? x - kernel::floor(x) : x, 0.0f, 1.0f);
+/// How a picture continues along u or v.
+struct Continuation {
+    bool repeats, mirrors;
+
+    explicit Continuation(TextureWrap wrap)
+        : repeats(wrap == TextureWrap::repeat), mirrors(wrap == TextureWrap::mirror) {}
+};
+
+/// In a mirror, the period is 2, and its second half is reversed.
+CANDELA_KERNEL_INLINE float wrapped(float x, Continuation c) {
+    const float repeated = x - kernel::floor(x);
+    const float mirrored = kernel::abs(x - 2 * kernel::floor(0.5f * x + 0.5f));
+    return within(c.mirrors ? mirrored : c.repeats ? repeated : x, 0.0f, 1.0f);
 }
 
 /// Rounds a non-negative number to the nearest integer.
@@ -42,9 +53,9 @@ CANDELA_KERNEL_INLINE std::int32_t rounded(float x) { return static_cast<std::in
 /// The level of detail is the binary logarithm of the length of a pixel's footprint in texels. `between` is
 /// zero if all points lie in a level, not between two.
 struct PointsLoop {
-    CANDELA_BATCH_LOOP static void run(TextureCoordinates at, bool repeats, float width, float height,
-                                       float last, std::size_t count, PicturePoints* points,
-                                       std::int32_t* between) {
+    CANDELA_BATCH_LOOP static void run(TextureCoordinates at, Continuation along_u, Continuation along_v,
+                                       float width, float height, float last, std::size_t count,
+                                       PicturePoints* points, std::int32_t* between) {
         float *const u = points->u.data(), *const v = points->v.data();
         std::int32_t *const finer = points->finer.data(), *const weight = points->coarser_weight.data();
         std::int32_t any = 0;
@@ -55,8 +66,8 @@ struct PointsLoop {
             const float squared = within(kernel::max(ax * ax + ay * ay, bx * bx + by * by), 1.0f, 1e18f);
             const float detail = kernel::min(0.5f * kernel::log2(squared), last);
             const float level = kernel::floor(detail);
-            u[i] = wrapped(at.uv.x[i], repeats);
-            v[i] = 1.0f - wrapped(at.uv.y[i], repeats);
+            u[i] = wrapped(at.uv.x[i], along_u);
+            v[i] = 1.0f - wrapped(at.uv.y[i], along_v);
             finer[i] = static_cast<std::int32_t>(level);
             weight[i] = rounded(k_whole_weight * (detail - level));
             any |= weight[i];
@@ -123,8 +134,9 @@ struct InteriorLoop {
 /// Like the above, for points of any levels, anywhere.
 template <int coarser>
 struct FootprintLoop {
-    CANDELA_BATCH_LOOP static void run(const std::int32_t* sizes, bool repeats, const PicturePoints* points,
-                                       int last, std::size_t count, TexelFootprints* places) {
+    CANDELA_BATCH_LOOP static void run(const std::int32_t* sizes, bool repeats_x, bool repeats_y,
+                                       const PicturePoints* points, int last, std::size_t count,
+                                       TexelFootprints* places) {
         const float *const u = points->u.data(), *const v = points->v.data();
         const std::int32_t *const level = points->finer.data(), *const weight = points->coarser_weight.data();
         std::int32_t* const texel = places->texel.data();
@@ -137,8 +149,8 @@ struct FootprintLoop {
             const int number = 4 * (wanted < last ? wanted : last);
             const std::int32_t width = sizes[number], height = sizes[number + 1], first = sizes[number + 2];
             const Cell cell = cell_of(width, height, u[i], v[i], weight_of_level<coarser>(weight[i]));
-            const std::int32_t before_x = repeats ? width - 1 : 0, after_x = repeats ? 0 : width - 1;
-            const std::int32_t before_y = repeats ? height - 1 : 0, after_y = repeats ? 0 : height - 1;
+            const std::int32_t before_x = repeats_x ? width - 1 : 0, after_x = repeats_x ? 0 : width - 1;
+            const std::int32_t before_y = repeats_y ? height - 1 : 0, after_y = repeats_y ? 0 : height - 1;
             const std::int32_t x0 = cell.column < 0 ? before_x : cell.column;
             const std::int32_t x1 = cell.column + 1 < width ? cell.column + 1 : after_x;
             const std::int32_t y0 = cell.row < 0 ? before_y : cell.row;
@@ -300,21 +312,21 @@ std::size_t fill_group(PicturePoints& points, std::size_t count) {
 
 }  // namespace
 
-void TextureFootprints::find(const MipMap& picture, TextureWrap wrapped, std::size_t of,
+void TextureFootprints::find(const MipMap& picture, const std::array<TextureWrap, 2>& wraps, std::size_t of,
                              const TextureCoordinates& at) {
     count = of;
     width = picture.width();
     height = picture.height();
-    wrap = wrapped;
     const std::span<const MipMap::Level> levels = picture.levels();
-    const bool repeats = wrap == TextureWrap::repeat;
+    const Continuation along_u(wraps[0]), along_v(wraps[1]);
+    const bool repeats_x = along_u.repeats, repeats_y = along_v.repeats;
     const int last = static_cast<int>(levels.size()) - 1;
     std::int32_t coarser_weights = 0, border = 0;
     std::int32_t *const between = &coarser_weights, *const is_at_border = &border;
     PicturePoints* const placed = &points;
     const PicturePoints* const found = &points;
     TexelFootprints *const in_finer = &finer, *const in_coarser = &coarser;
-    multiversion<PointsLoop>(at, repeats, static_cast<float>(width), static_cast<float>(height),
+    multiversion<PointsLoop>(at, along_u, along_v, static_cast<float>(width), static_cast<float>(height),
                              static_cast<float>(last), count, placed, between);
     const std::size_t filled = fill_group(points, count);
     is_between_levels = coarser_weights != 0;
@@ -331,8 +343,9 @@ void TextureFootprints::find(const MipMap& picture, TextureWrap wrapped, std::si
     }
     if (is_interior) return;
     const std::int32_t* const sizes = picture.sizes().data();
-    multiversion<FootprintLoop<0>>(sizes, repeats, found, last, filled, in_finer);
-    if (is_between_levels) multiversion<FootprintLoop<1>>(sizes, repeats, found, last, filled, in_coarser);
+    multiversion<FootprintLoop<0>>(sizes, repeats_x, repeats_y, found, last, filled, in_finer);
+    if (is_between_levels)
+        multiversion<FootprintLoop<1>>(sizes, repeats_x, repeats_y, found, last, filled, in_coarser);
 }
 
 void MipMap::multiply(const TextureFootprints& at, const Vec3Span& color) const noexcept {

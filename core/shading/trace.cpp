@@ -56,6 +56,8 @@ PointTrace SurfaceShader::trace(const SurfaceModels& surface, const ShadedObject
                      .specular = first_of(specular_),
                      .intensity = first_of(intensity)};
 
+    if (object.mesh != nullptr && object.mesh->has_second_uv && needs.channels)
+        trace.second_uv = {points.channels[0][0], points.channels[1][0]};
     trace.shading_normal = trace.normal;
     if (surface.material_textures.normal) {
         shading_normals(surface, points, tangent_.span());

@@ -54,6 +54,7 @@ struct PointTrace {
     Vec3 vertex_normal{};                    // interpolated, not unit
     Vec3 barycentric{};
     float u = 0, v = 0;
+    std::array<float, 2> second_uv{};  // zero unless a texture is placed by them
     Vec3 dpdu{}, dpdv{};
     std::array<Vec3, 3> corner_position{};  // of its triangle; zero unless the shading model needs them
     std::array<Vec3, 3> corner_normal{};

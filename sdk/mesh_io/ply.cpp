@@ -73,8 +73,9 @@ void skip(Values& values, const Element& element) {
 
 class Reader {
   public:
-    Reader(std::string_view bytes, const Header& header, const Origin& origin, const Progress& progress)
-        : bytes_(bytes), header_(header), origin_(origin), progress_(progress) {}
+    Reader(std::string_view bytes, const Header& header, const Origin& origin, const Progress& progress,
+           Attributes attributes)
+        : bytes_(bytes), header_(header), origin_(origin), progress_(progress), attributes_(attributes) {}
 
     Surface read() {
         if (header_.encoding == Encoding::text) {
@@ -201,18 +202,38 @@ class Reader {
         const auto alpha = scalar({"alpha", "diffuse_alpha", "a"});
         Array<float> opacity;
         if (alpha) use(alpha, opacity);
+        std::vector<std::size_t> others;
+        if (attributes_ == Attributes::read) {
+            for (std::size_t i = 0; i < element.properties.size(); ++i)
+                if (!element.properties[i].is_list() && std::ranges::find(used, i) == used.end())
+                    others.push_back(i);
+            surface_.attributes.reserve(others.size());  // columns point into it
+            for (const std::size_t i : others) {
+                surface_.attributes.push_back({element.properties[i].name, std::vector<Array<float>>(1)});
+                use(i, surface_.attributes.back().channels[0]);
+            }
+        }
         note_others(element, used, "vertex");
         read_columns(values, element, columns);
+        for (Attribute& attribute : surface_.attributes)
+            for (float& number : attribute.channels[0])
+                if (!std::isfinite(number)) number = 0;
         if (alpha) {
             std::vector<std::string> unsaid;
             scale_colors({&opacity}, element.properties[*alpha].type, "vertex", unsaid);
-            if (std::ranges::any_of(opacity, [](float a) { return a != 1; }))
+            if (attributes_ == Attributes::skipped &&
+                std::ranges::any_of(opacity, [](float a) { return a != 1; }))
                 surface_.losses.emplace_back("the opacity of vertices");
         }
         if (red && green && blue) {
             scale_colors({&surface_.color.x, &surface_.color.y, &surface_.color.z},
                          element.properties[*red].type, "vertex", surface_.notes);
         }
+        if (attributes_ == Attributes::skipped || (!alpha && surface_.color.empty())) return;
+        Attribute color{"color", {surface_.color.x, surface_.color.y, surface_.color.z}};
+        for (Array<float>& channel : color.channels) channel.resize(element.count, 1.0f);
+        if (alpha) color.channels.push_back(std::move(opacity));
+        surface_.attributes.push_back(std::move(color));
     }
 
     template <class Values>
@@ -456,6 +477,7 @@ class Reader {
     const Header& header_;
     const Origin& origin_;
     const Progress& progress_;
+    Attributes attributes_;
     Surface surface_;
     Polygons polygons_;
     Wedges wedges_;
@@ -470,10 +492,11 @@ class Reader {
 
 }  // namespace ply
 
-Surface read_ply(std::string_view bytes, const Origin& origin, const Progress& progress) {
+Surface read_ply(std::string_view bytes, const Origin& origin, const Progress& progress,
+                 Attributes attributes) {
     bytes = without_mark(bytes);
     const ply::Header header = ply::read_header(bytes);
-    return ply::Reader(bytes, header, origin, progress).read();
+    return ply::Reader(bytes, header, origin, progress, attributes).read();
 }
 
 }  // namespace mesh_io

@@ -14,7 +14,8 @@
 namespace mesh_io {
 
 /// The Polygon File Format, text or binary (Turk 1994).
-Surface read_ply(std::string_view bytes, const Origin& origin, const Progress& progress);
+Surface read_ply(std::string_view bytes, const Origin& origin, const Progress& progress,
+                 Attributes attributes = Attributes::skipped);
 
 /// Stereolithography, text or binary (3D Systems 1989).
 Surface read_stl(Pieces& file, const Origin& origin, const Progress& progress);
@@ -25,6 +26,6 @@ Surface read_obj(std::string_view text, const Origin& origin, const Progress& pr
 /// glTF 2.0, text or binary (ISO/IEC 12113). Buffers are read from `folder`, and from elsewhere if `reach`
 /// allows.
 Surface read_gltf(std::string_view bytes, const Origin& origin, const std::filesystem::path& folder,
-                  FileScope reach);
+                  FileScope reach, Attributes attributes = Attributes::skipped);
 
 }  // namespace mesh_io

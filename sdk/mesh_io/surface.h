@@ -50,6 +50,16 @@ struct Unsupported {
     bool appearance;
 };
 
+/// Numbers of a file's vertices besides those that every mesh may have.
+struct Attribute {
+    std::string name;  // "uv1": the second texture coordinates; "color": as the file has it, with its alpha;
+                       // others as the file calls them
+    std::vector<Array<float>> channels;  // each per vertex
+};
+
+/// Whether a reader reads them: a mesh that does not use them need not hold them.
+enum class Attributes : bool { skipped, read };
+
 /// The triangles of a file, on the file's vertices, in object space.
 struct Surface {
     Vectors position;   // per vertex
@@ -60,6 +70,7 @@ struct Surface {
     Vectors tangent;
     Array<float> tangent_side;
     Vectors color;                         // per vertex, 0 to 1 as the file has them, or empty
+    std::vector<Attribute> attributes;     // if they were read
     Array<std::uint32_t> indices;          // three per triangle, < position.size()
     Vectors facet_normal;                  // per triangle, unit, zero where the file's is none; or empty
     std::vector<std::uint32_t> smoothing;  // per triangle: its smoothing group; or empty: all k_by_angle

@@ -33,6 +33,8 @@ void split_by_wedges(const Wedges& wedges, Polygons& polygons, Surface& surface)
     surface = {};
     surface.losses = whole.losses;
     surface.notes = whole.notes;
+    for (const Attribute& attribute : whole.attributes)
+        surface.attributes.push_back({attribute.name, std::vector<Array<float>>(attribute.channels.size())});
     boost::unordered_flat_map<Key, std::uint32_t, KeyHash> vertex_of;
     vertex_of.reserve(polygons.corners.size());
     std::size_t corner = 0;
@@ -49,6 +51,9 @@ void split_by_wedges(const Wedges& wedges, Polygons& polygons, Surface& surface)
             if (!is_new) continue;
             surface.position.push_back(whole.position.span()[vertex]);
             if (!whole.normal.empty()) surface.normal.push_back(whole.normal.span()[vertex]);
+            for (std::size_t a = 0; a < whole.attributes.size(); ++a)
+                for (std::size_t c = 0; c < whole.attributes[a].channels.size(); ++c)
+                    surface.attributes[a].channels[c].push_back(whole.attributes[a].channels[c][vertex]);
             if (!wedges.face_color.empty()) {
                 surface.color.push_back(color);
             } else if (!whole.color.empty()) {

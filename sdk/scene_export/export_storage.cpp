@@ -33,36 +33,41 @@ bool is_table(const PluginDescriptor& plugin, std::size_t parameter) {
 
 bool are_equal(const Vec3Arrays& a, const Vec3Arrays& b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
-ExportedMesh view_of(const Mesh& mesh, const PlacedShape& shape, bool encloses) {
-    const auto span_of = [](const Vec3Arrays& arrays) {
-        return arrays.empty() ? ConstVec3Span{} : arrays.span();
-    };
-    return {.vertex_count = mesh.vertex_count(),
-            .indices = mesh.indices,
-            .position = mesh.position.span(),
-            .authored_normal = span_of(shape.authored_normal),
-            .smooth_group = shape.smooth_group,
-            .uv = mesh.u.empty() ? ConstVec2Span{} : ConstVec2Span{mesh.u.data(), mesh.v.data()},
-            .color = span_of(mesh.color),
-            .dpdu = span_of(mesh.dpdu),
-            .dpdv = span_of(mesh.dpdv),
-            .closed = encloses ? mesh.one_sided : mesh.closed,
-            .is_solid = mesh.closed && !mesh.one_sided && !encloses};
-}
+ConstVec3Span span_of(const Vec3Arrays& arrays) { return arrays.empty() ? ConstVec3Span{} : arrays.span(); }
 
 }  // namespace
 
+ExportedMesh ExportStorage::view(bool encloses) {
+    const Mesh& mesh = placed.mesh;
+    channels.assign(mesh.channels.begin(), mesh.channels.end());
+    ExportedMesh view{.vertex_count = mesh.vertex_count(),
+                      .indices = mesh.indices,
+                      .position = mesh.position.span(),
+                      .authored_normal = span_of(placed.authored_normal),
+                      .smooth_group = placed.smooth_group,
+                      .channels = channels,
+                      .color = span_of(mesh.color),
+                      .dpdu = span_of(mesh.dpdu),
+                      .dpdv = span_of(mesh.dpdv),
+                      .closed = encloses ? mesh.one_sided : mesh.closed,
+                      .is_solid = mesh.closed && !mesh.one_sided && !encloses};
+    if (!mesh.u.empty()) view.uv = {mesh.u.data(), mesh.v.data()};
+    if (mesh.has_second_uv) view.second_uv = {mesh.channels[0].data(), mesh.channels[1].data()};
+    return view;
+}
+
 ExportedMesh ExportStorage::in_object_space(std::size_t object) {
-    placed = place(*objects[object].tessellator, request(true), {});
+    const Object& from = objects[object];
+    placed = place(*from.tessellator, request(from, true), {});
     require_no_colors(object);
-    return view_of(placed.mesh, placed, objects[object].encloses);
+    return view(from.encloses);
 }
 
 ExportedMesh ExportStorage::in_world_space(std::size_t object) {
     normal_sets.clear();
     normals_of.clear();
     const Object& from = objects[object];
-    placed = place(*from.tessellator, request(scene.needs_uv), from.transform);
+    placed = place(*from.tessellator, request(from, scene.needs_uv), from.transform);
     require_no_colors(object);
     make_face_normals(placed.mesh);
     std::vector<std::unique_ptr<ShadingModel>> models;
@@ -81,17 +86,18 @@ ExportedMesh ExportStorage::in_world_space(std::size_t object) {
     }
     normals_view.clear();
     for (const Vec3Arrays& set : normal_sets) normals_view.push_back(set.span());
-    ExportedMesh view = view_of(placed.mesh, placed, from.encloses);
-    view.normals = normals_view;
-    view.normals_of = normals_of;
-    return view;
+    ExportedMesh mesh = view(from.encloses);
+    mesh.normals = normals_view;
+    mesh.normals_of = normals_of;
+    return mesh;
 }
 
-MeshRequest ExportStorage::request(bool needs_uv) const {
+MeshRequest ExportStorage::request(const Object& of, bool needs_uv) const {
     return {.uv = needs_uv,
             .derivatives = scene.needs_derivatives,
             .color = true,
-            .color_management = scene.image.color_management};
+            .color_management = scene.image.color_management,
+            .channels = of.channels};
 }
 
 void ExportStorage::require_no_colors(std::size_t object) const {

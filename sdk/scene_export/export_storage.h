@@ -29,6 +29,7 @@ struct ExportStorage : ExportedGeometry {
         std::vector<ExportedTexturedNumber> textured_numbers, color_numbers, emission_numbers,
             occlusion_numbers, opacity_numbers;
         std::optional<ExportedNormalMap> normal_map;
+        std::vector<VertexChannel> channels;
     };
 
     explicit ExportStorage(Registry& plugins) : registry(plugins) {}
@@ -83,6 +84,7 @@ struct ExportStorage : ExportedGeometry {
 
     // Of the mesh that was last requested:
     PlacedShape placed;
+    std::vector<std::span<const float>> channels;
     std::vector<Vec3Arrays> normal_sets;
     std::vector<ConstVec3Span> normals_view;
     std::vector<std::size_t> normals_of;
@@ -93,7 +95,8 @@ struct ExportStorage : ExportedGeometry {
     void put_tables(const PluginDescriptor& plugin, const Instance& instance);
     void put_table(std::span<const float> table, ParamValue& value);
 
-    MeshRequest request(bool needs_uv) const;
+    MeshRequest request(const Object& of, bool needs_uv) const;
+    ExportedMesh view(bool encloses);
     /// Throws if the object's mesh has colours that the target cannot express.
     void require_no_colors(std::size_t object) const;
 };

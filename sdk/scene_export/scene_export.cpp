@@ -359,8 +359,9 @@ class Exporter {
     /// The index of a picture of normals or slopes.
     std::size_t texture_of(const NormalMap& map) {
         if (!map.has_heights) return texture_of(map.file, ColorEncoding::none);
-        const auto [known, is_new] = slopes_.try_emplace({map.file, map.wrap}, to_.textures.size());
-        if (is_new) add_texture(map.file, read_bump_map(map.file, registry_, map.wrap).mip_map);
+        const std::array<TextureWrap, 2> wraps = map.placing.wraps();
+        const auto [known, is_new] = slopes_.try_emplace({map.file, wraps}, to_.textures.size());
+        if (is_new) add_texture(map.file, read_bump_map(map.file, registry_, wraps).mip_map);
         return known->second;
     }
 
@@ -383,14 +384,16 @@ class Exporter {
             throw Error(ErrorCategory::failure,
                         fmt::format("object {} has a {}, which this target does not support; remove it",
                                     object.label.text(), map.has_heights ? "bump_map" : "normal_map"));
+        if (map.placing.uv != 0 && !request_.abilities.second_uv) return std::nullopt;
         ExportedNormalMap exported{.texture = texture_of(map),
-                                   .repeats = map.wrap == TextureWrap::repeat,
+                                   .uv = map.placing.uv,
                                    .has_slopes = map.has_heights,
                                    .scale = map.scale};
         const MipMap& picture = *to_.mip_maps[exported.texture];
         MaterialTextures textures;
         textures.add(map, {}, picture.width(), picture.height());
-        std::ranges::copy(placing_of(map.transform), exported.placing);
+        std::ranges::copy(exported_wraps(map.placing), exported.wrap);
+        std::ranges::copy(placing_of(map.placing.transform), exported.placing);
         std::ranges::copy(textures.normal->to_uv, exported.to_uv);
         return exported;
     }
@@ -415,6 +418,42 @@ class Exporter {
             refuse("has an occlusion of ambient light", "remove 'occlusion' from its material");
         if (common.is_see_through() && !request_.abilities.opacity && !request_.leaves_out)
             refuse("is not opaque", "remove 'opacity' from its material");
+        if (has_second_uv(object) && !request_.abilities.second_uv && !request_.leaves_out)
+            refuse("has a texture placed by its second texture coordinates", "remove 'uv' from the texture");
+        if (has_attributes(object) && !request_.abilities.vertex_channels && !request_.leaves_out)
+            refuse("takes values from an attribute of its vertices", "give them a value or a texture");
+    }
+
+    static bool has_second_uv(const Object& object) {
+        const std::vector<VertexChannel> channels = vertex_channels_of(object);
+        return !channels.empty() && channels.front().attribute == "uv1";
+    }
+    static bool has_attributes(const Object& object) {
+        return std::ranges::any_of(vertex_channels_of(object),
+                                   [](const VertexChannel& channel) { return channel.attribute != "uv1"; });
+    }
+
+    /// Declares what require_abilities() accepted although the target lacks it.
+    void declare_left_out(const Object& object) {
+        const auto declare = [&](bool has, bool is_able, const char* what) {
+            if (has && !is_able)
+                to_.left_out.push_back(
+                    kept(fmt::format("{} of object {} {} left out", what, name_in(object.label),
+                                     std::string_view(what).ends_with('s') ? "are" : "is")));
+        };
+        const TargetAbilities& able = request_.abilities;
+        declare(object.common.is_see_through(), able.opacity, "the opacity");
+        declare(has_second_uv(object), able.second_uv, "textures on the second texture coordinates");
+        declare(has_attributes(object), able.vertex_channels, "values from attributes of the vertices");
+    }
+
+    static bool is_of_vertices(const TexturedNumber& number) {
+        return number.vertex_channel != TexturedNumber::k_none;
+    }
+
+    static std::array<ExportedWrap, 2> exported_wraps(const TexturePlacing& placing) {
+        const auto [u, v] = placing.wraps();
+        return {static_cast<ExportedWrap>(u), static_cast<ExportedWrap>(v)};
     }
 
     static ExportedTexturedNumber exported_number(const TexturedNumber& number, const PlacedTexture& placed,
@@ -423,12 +462,14 @@ class Exporter {
                                       .channel = number.channel,
                                       .texture = picture,
                                       .texel_channel = number.texel_channel,
-                                      .repeats = placed.wrap == TextureWrap::repeat,
+                                      .vertex_channel = number.vertex_channel,
+                                      .uv = placed.placing.uv,
                                       .scale = number.scale,
                                       .offset = number.offset,
                                       .minimum = number.minimum,
                                       .maximum = number.maximum};
-        std::ranges::copy(placing_of(placed.transform), result.placing);
+        std::ranges::copy(exported_wraps(placed.placing), result.wrap);
+        std::ranges::copy(placing_of(placed.placing.transform), result.placing);
         return result;
     }
 
@@ -440,6 +481,7 @@ class Exporter {
                                const Parameter& parameter) -> std::optional<PlacedTexture> {
             const bool is_opacity = &parameter == &material_parameter("opacity");
             if (is_opacity && !request_.abilities.opacity) return std::nullopt;
+            if (texture.placing.uv != 0 && !request_.abilities.second_uv) return std::nullopt;
             const std::size_t picture =
                 texture.channel == TextureChannel::alpha
                     ? opacity_map_of(texture.file)
@@ -447,18 +489,24 @@ class Exporter {
                                  encoding_of(texture, parameter, scene_.image.color_management));
             std::string key = fmt::format("{}", picture);
             pictures.emplace(key, picture);
-            return PlacedTexture{std::move(key), nullptr, texture.wrap, texture.transform};
+            return PlacedTexture{std::move(key), nullptr, texture.placing};
         };
         MaterialTextures textures, of_opacity;
         MaterialTextures::add_all(object, place, textures, of_opacity);
         const auto exported = [&](const MaterialTextures& of, const TexturedNumber& number) {
+            if (is_of_vertices(number)) return exported_number(number, {}, 0);
             const PlacedTexture& placed = of.textures[number.texture];
             return exported_number(number, placed, pictures.at(placed.key));
         };
+        const auto is_left_out = [&](const TexturedNumber& number) {
+            return is_of_vertices(number) && !request_.abilities.vertex_channels;
+        };
         for (const TexturedNumber& number : of_opacity.numbers)
-            to.opacity_numbers.push_back(exported(of_opacity, number));
+            if (request_.abilities.opacity && !is_left_out(number))
+                to.opacity_numbers.push_back(exported(of_opacity, number));
         for (std::size_t i = 0; i < textures.numbers.size(); ++i) {
             const TexturedNumber& number = textures.numbers[i];
+            if (is_left_out(number)) continue;
             const bool is_of_model = i < textures.of_model, is_occlusion = i == textures.occlusion,
                        is_color = i >= textures.color && i - textures.color < 3;
             (is_of_model    ? to.textured_numbers
@@ -476,9 +524,10 @@ class Exporter {
         own.tessellator = made<Shape>(object.shape.name, object.shape.parameters);
         own.transform = object.transform;
         const bool has_opacity = request_.abilities.opacity && object.common.is_see_through();
-        if (object.common.is_see_through() && !has_opacity)
-            to_.left_out.push_back(
-                kept(fmt::format("the opacity of object {} is left out", name_in(object.label))));
+        declare_left_out(object);
+        if (request_.abilities.second_uv || request_.abilities.vertex_channels)
+            for (const VertexChannel& channel : vertex_channels_of(object))
+                own.channels.push_back({kept(std::string(channel.attribute)), channel.channel});
         own.encloses = object.encloses || has_opacity;
         ExportedObject exported{
             .label = kept(name_in(object.label)),
@@ -532,7 +581,7 @@ class Exporter {
     std::map<std::pair<PluginKind, std::string>, std::optional<Scene>> with_;
     std::map<std::pair<std::string, ColorEncoding>, std::size_t> textures_;  // indices of to_.textures
     std::map<std::string, std::size_t> opacity_maps_;
-    std::map<std::pair<std::string, TextureWrap>, std::size_t> slopes_;  // of bump maps
+    std::map<std::pair<std::string, std::array<TextureWrap, 2>>, std::size_t> slopes_;  // of bump maps
 };
 
 }  // namespace

@@ -29,8 +29,10 @@ struct ExportRequest {
     std::string title{};
     TargetAbilities abilities{};  // the target's
     ExtraModels extra_models{};
-    WithModel with_model{};   // if empty, extra models have their defaults
-    bool leaves_out = false;  // opacity, if the target has none: objects are opaque
+    WithModel with_model{};  // if empty, extra models have their defaults
+    /// Opacity, the second texture coordinates and attributes of vertices are left out if the target lacks
+    /// them.
+    bool leaves_out = false;
 };
 
 /// An ExportedScene and all its memory.

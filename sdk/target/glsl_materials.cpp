@@ -19,12 +19,17 @@ std::string row(const float (&placing)[6], std::size_t first) {
                        float_text(placing[first + 2]));
 }
 
+/// The picture of a number or a normal map.
+template <class Reader>
+MaterialPicture picture_of(const Reader& reader) {
+    return {reader.texture, reader.wrap[0], reader.wrap[1]};
+}
+
 /// Looks up a picture of the object.
 template <class Picture>
 std::string texel_text(const ExportedObject& object, const Picture& picture) {
     const std::vector<MaterialPicture> pictures = material_pictures(object);
-    const auto slot =
-        std::ranges::find(pictures, MaterialPicture{picture.texture, picture.repeats}) - pictures.begin();
+    const auto slot = std::ranges::find(pictures, picture_of(picture)) - pictures.begin();
     return fmt::format("material_texel(material_texture_{}, {}, {})", slot, row(picture.placing, 0),
                        row(picture.placing, 3));
 }
@@ -42,8 +47,8 @@ constexpr const char* k_number_of =
 std::string text_of(const ExportedScene& scene, const ExportedObject& object, bool has_model) {
     const auto lookup = [&](const ExportedTexturedNumber& n) { return texel_text(object, n); };
     const auto [texels, assignments, common] = material_statements(
-        scene, object,
-        {"    ", "vec3", "own_material", "own_color", "own_emission", "own_occlusion", has_model}, lookup);
+        scene, object, {"    ", "", "own_material", "own_color", "own_emission", "own_occlusion", has_model},
+        lookup);
     std::string start = "    own_material = material;\n";
     if (has_common_textures(scene)) {
         start = "    start_material();\n";
@@ -91,9 +96,9 @@ std::vector<MaterialPicture> material_pictures(const ExportedObject& object) {
     const auto add = [&](const MaterialPicture& one) {
         if (std::ranges::find(pictures, one) == pictures.end()) pictures.push_back(one);
     };
-    for (const ExportedTexturedNumber& n : all_textured_numbers(object)) add({n.texture, n.repeats});
-    for (const ExportedTexturedNumber& n : object.opacity_numbers) add({n.texture, n.repeats});
-    if (object.normal_map != nullptr) add({object.normal_map->texture, object.normal_map->repeats});
+    for (const ExportedTexturedNumber& n : all_textured_numbers(object)) add(picture_of(n));
+    for (const ExportedTexturedNumber& n : object.opacity_numbers) add(picture_of(n));
+    if (object.normal_map != nullptr) add(picture_of(*object.normal_map));
     return pictures;
 }
 

@@ -65,8 +65,9 @@ std::string number_text(const ExportedTexturedNumber& n, const std::string& texe
         constexpr float k_largest = std::numeric_limits<float>::max();
         return float_text(std::clamp(x, -k_largest, k_largest));
     };
-    return fmt::format("number_of({}{}, {}, {}, {}, {})", texel, k_channels[n.texel_channel],
-                       float_text(n.scale), float_text(n.offset), finite(n.minimum), finite(n.maximum));
+    const char* const channel = is_of_vertices(n) ? "" : k_channels[n.texel_channel];
+    return fmt::format("number_of({}{}, {}, {}, {}, {})", texel, channel, float_text(n.scale),
+                       float_text(n.offset), finite(n.minimum), finite(n.maximum));
 }
 
 MaterialStatements material_statements(
@@ -79,8 +80,8 @@ MaterialStatements material_statements(
         const auto known = std::ranges::find(lookups, texel);
         const auto place = known - lookups.begin();
         if (known == lookups.end()) {
-            statements.texels +=
-                fmt::format("{}{} texel_{} = {};\n", names.indent, names.texel_type, place, texel);
+            statements.texels += fmt::format("{}{}{} texel_{} = {};\n", names.indent, names.qualifier,
+                                             is_of_vertices(n) ? "float" : "vec3", place, texel);
             lookups.push_back(texel);
         }
         return number_text(n, fmt::format("texel_{}", place));
@@ -143,6 +144,22 @@ std::vector<ExportedTexturedNumber> all_textured_numbers(const ExportedObject& o
          {object.textured_numbers, object.color_numbers, object.emission_numbers, object.occlusion_numbers})
         all.insert(all.end(), numbers.begin(), numbers.end());
     return all;
+}
+
+bool is_of_vertices(const ExportedTexturedNumber& number) {
+    return number.vertex_channel != ExportedTexturedNumber::k_none;
+}
+
+bool needs_channels(const ExportedObject& object) {
+    const auto needs = [](const ExportedTexturedNumber& n) { return n.uv != 0 || is_of_vertices(n); };
+    return std::ranges::any_of(all_textured_numbers(object), needs) ||
+           std::ranges::any_of(object.opacity_numbers, needs) ||
+           (object.normal_map != nullptr && object.normal_map->uv != 0);
+}
+
+bool needs_channels(const ExportedScene& scene) {
+    return std::ranges::any_of(scene.objects,
+                               [](const ExportedObject& object) { return needs_channels(object); });
 }
 
 bool has_common_textures(const ExportedObject& object) {

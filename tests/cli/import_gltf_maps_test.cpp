@@ -26,6 +26,9 @@ using Color = std::array<double, 4>;
 
 constexpr int k_size = 64;
 
+constexpr int k_repeat = 10497, k_clamp = 33071, k_mirror = 33648;
+constexpr std::array k_repeats{k_repeat, k_repeat};
+
 double linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 double encoded(double c) { return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055; }
 
@@ -43,11 +46,18 @@ struct Picture {
     }
     std::string file() const { return png(8, 8, texels); }
 
+    /// Which of eight texels is seen as number `i`, with glTF's number of a wrap.
+    static int inside(int i, int wrap) {
+        if (wrap == k_clamp) return std::clamp(i, 0, 7);
+        const int repeated = (i % 16 + 16) % 16;
+        return wrap == k_mirror && repeated > 7 ? 15 - repeated : repeated % 8;
+    }
+
     /// Bilinear, at coordinates whose v points downwards.
-    Color at(double u, double v, bool repeats, bool is_srgb) const {
+    Color at(double u, double v, std::array<int, 2> wraps, bool is_srgb) const {
         const auto texel = [&](int x, int y, std::size_t channel) {
-            const auto inside = [&](int i) { return repeats ? (i % 8 + 8) % 8 : std::clamp(i, 0, 7); };
-            const double c = texels[static_cast<std::size_t>(8 * inside(y) + inside(x))][channel] / 255.0;
+            const int place = 8 * inside(y, wraps[1]) + inside(x, wraps[0]);
+            const double c = texels[static_cast<std::size_t>(place)][channel] / 255.0;
             return is_srgb ? linear(c) : c;
         };
         const double x = 8 * u - 0.5, y = 8 * v - 0.5;
@@ -142,21 +152,21 @@ TEST_CASE("a map of metalness and roughness gives each point its own, wherever i
     const Picture picture;
     struct Placing {
         double scale_u, scale_v, rotation, offset_u, offset_v;
-        bool repeats;
+        std::array<int, 2> wraps = k_repeats;
     };
     for (const Placing& p :
-         {Placing{1, 1, 0, 0, 0, true}, Placing{0.5, 2, 0.4, 0.3, -0.2, true},
-          Placing{-1, 0.75, -2, 0.1, 0.6, true}, Placing{1.5, 1.25, 0.2, -0.2, 0.1, false}}) {
+         {Placing{1, 1, 0, 0, 0}, Placing{0.5, 2, 0.4, 0.3, -0.2}, Placing{-1, 0.75, -2, 0.1, 0.6},
+          Placing{1.5, 1.25, 0.2, -0.2, 0.1, {k_clamp, k_clamp}},
+          Placing{1.5, 1.25, 0.2, -0.2, 0.1, {k_mirror, k_repeat}},
+          Placing{1.25, 1.5, -0.3, 0.4, -0.7, {k_clamp, k_mirror}}}) {
         GltfSquare file;
         file.pbr() = {{"metallicFactor", 0.75}, {"roughnessFactor", 0.9}};
         Json map = file.texture(picture.file());
         map["extensions"]["KHR_texture_transform"] = {{"scale", {p.scale_u, p.scale_v}},
                                                       {"rotation", p.rotation},
                                                       {"offset", {p.offset_u, p.offset_v}}};
-        if (!p.repeats) {
-            file.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33071}}};
-            file.json["textures"][0]["sampler"] = 0;
-        }
+        file.json["samplers"] = {{{"wrapS", p.wraps[0]}, {"wrapT", p.wraps[1]}}};
+        file.json["textures"][0]["sampler"] = 0;
         file.pbr()["metallicRoughnessTexture"] = map;
         const Imported imported = import(file);
         CHECK_FALSE(holds(imported.scene, "# Note"));
@@ -164,9 +174,36 @@ TEST_CASE("a map of metalness and roughness gives each point its own, wherever i
             const double c = std::cos(p.rotation), s = std::sin(p.rotation);
             const Color texel =
                 picture.at(c * p.scale_u * u + s * p.scale_v * v + p.offset_u,
-                           -s * p.scale_u * u + c * p.scale_v * v + p.offset_v, p.repeats, false);
+                           -s * p.scale_u * u + c * p.scale_v * v + p.offset_v, p.wraps, false);
             const double metallic = 0.75 * texel[2];
             // Half of the surroundings of a metal, and what a dielectric does not mirror.
+            return lit({.metallic = metallic, .roughness = 0.9 * texel[1]},
+                       0.1 * (0.96 * (1 - metallic) + 0.5 * metallic));
+        });
+    }
+}
+
+TEST_CASE("maps have the set of texture coordinates that the file says, each of two") {
+    const Picture picture;
+    GltfSquare file;
+    // The second ones are half of the first, turned by a quarter: (v / 2, 1 - u / 2).
+    file.primitive()["attributes"]["TEXCOORD_1"] = file.floats("VEC2", {0.5, 1, 0.5, 0.5, 0, 0.5, 0, 1});
+    file.pbr() = {{"metallicFactor", 0.75}, {"roughnessFactor", 0.9}};
+    Json map = file.texture(picture.file());
+    map["texCoord"] = 1;
+    file.pbr()["metallicRoughnessTexture"] = map;
+    file.pbr()["baseColorTexture"] = file.texture(png(1, 1, {{255, 255, 255, 255}}));
+    for (const bool is_transform : {false, true}) {
+        if (is_transform) {
+            // An extension's set takes the place of the texture's own.
+            file.pbr()["metallicRoughnessTexture"]["texCoord"] = 0;
+            file.pbr()["metallicRoughnessTexture"]["extensions"]["KHR_texture_transform"]["texCoord"] = 1;
+        }
+        const Imported imported = import(file);
+        CHECK_FALSE(holds(imported.scene, "# Note"));
+        require_picture(imported, [&](double u, double v) {
+            const Color texel = picture.at(v / 2, 1 - u / 2, k_repeats, false);
+            const double metallic = 0.75 * texel[2];
             return lit({.metallic = metallic, .roughness = 0.9 * texel[1]},
                        0.1 * (0.96 * (1 - metallic) + 0.5 * metallic));
         });
@@ -190,7 +227,7 @@ TEST_CASE("a map of the base colour is placed by its transform, and multiplied b
     require_picture(imported, [&](double u, double v) {
         const double c = std::cos(rotation), s = std::sin(rotation);
         const Color texel =
-            picture.at(c * 0.5 * u + s * 1.5 * v + 0.3, -s * 0.5 * u + c * 1.5 * v - 0.2, true, true);
+            picture.at(c * 0.5 * u + s * 1.5 * v + 0.3, -s * 0.5 * u + c * 1.5 * v - 0.2, k_repeats, true);
         return std::array<double, 3>{0.6 * factor[0] * texel[0], 0.6 * factor[1] * texel[1],
                                      0.6 * factor[2] * texel[2]};
     });
@@ -214,7 +251,7 @@ TEST_CASE("maps of KHR_materials_specular and clearcoat are read from their chan
     const Imported imported = import(file);
     CHECK_FALSE(holds(imported.scene, "# Note"));
     require_picture(imported, [&](double u, double v) {
-        const Color texel = picture.at(u, v, true, false), color = picture.at(u, v, true, true);
+        const Color texel = picture.at(u, v, k_repeats, false), color = picture.at(u, v, k_repeats, true);
         return lit({.metallic = 0,
                     .roughness = 0.8,
                     .specular = 0.8 * texel[3],
@@ -269,8 +306,8 @@ TEST_CASE("maps of specular-glossiness give each point its reflectance and gloss
     const std::string material = imported.material();
     const double ka = std::stod(material.substr(material.find("= ") + 2));
     require_picture(imported, [&](double u, double v) {
-        const double alpha = std::pow(1 - 0.4 * picture.at(u, v, true, false)[3], 2);
-        Color color = picture.at(u, v, true, true);
+        const double alpha = std::pow(1 - 0.4 * picture.at(u, v, k_repeats, false)[3], 2);
+        Color color = picture.at(u, v, k_repeats, true);
         color = {0.5 * color[0], 0.25 * color[1], 0.5 * color[2]};
         const double diffuse = 1 - std::max({color[0], color[1], color[2]});
         const auto channel = [&](double mirrored) {
@@ -296,7 +333,7 @@ TEST_CASE("a normal map tilts the normals of a matt surface, as steeply as its s
     const Imported imported = import(file);
     CHECK_FALSE(holds(imported.scene, "# Note"));
     require_picture(imported, [&](double u, double v) {
-        const Color texel = picture.at(u, v, true, false);
+        const Color texel = picture.at(u, v, k_repeats, false);
         const double x = 1.5 * (2 * texel[0] - 1), y = 1.5 * (2 * texel[1] - 1), z = 2 * texel[2] - 1;
         const double light = 0.1 + 0.5 * z / std::sqrt(x * x + y * y + z * z);
         return std::array{light, light, light};
@@ -330,7 +367,7 @@ TEST_CASE("a map that is missing, broken or has other coordinates leaves the fac
     GltfSquare other;
     other.pbr()["metallicRoughnessTexture"] = other.texture(Picture().file());
     other.pbr()["metallicRoughnessTexture"]["extensions"]["KHR_texture_transform"]["texCoord"] = 1;
-    leaves(other, "a texture that uses further texture coordinates is left out");
+    leaves(other, "a texture on a further set of texture coordinates is left out");
     GltfSquare hostile;
     hostile.pbr()["metallicRoughnessTexture"] = hostile.texture(Picture().file());
     hostile.pbr()["metallicRoughnessTexture"]["extensions"]["KHR_texture_transform"] = {

@@ -55,6 +55,25 @@ TEST_CASE("a glTF file's opacity comes back as it went in") {
     }
 }
 
+TEST_CASE("the alpha of a glTF file's vertices is opacity where its material blends or cuts") {
+    const Folder folder;
+    GltfSquare file;
+    file.primitive()["attributes"]["COLOR_0"] =
+        file.floats("VEC4", {1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0});
+    file.pbr() = {{"metallicFactor", 0}, {"baseColorFactor", {1, 1, 1, 0.75}}};
+    const auto scene = [&] {
+        folder.write("a.glb", file.glb());
+        return imported(folder, "a.glb");
+    };
+    CHECK_FALSE(holds(scene(), "opacity"));
+    file.material()["alphaMode"] = "BLEND";
+    CHECK(holds(scene(), "{ attribute = \"color\", channel = \"a\", scale = 0.75 }\n"));
+    file.material()["alphaMode"] = "MASK";
+    const std::string mask = scene();
+    CHECK(holds(mask, "{ attribute = \"color\", channel = \"a\", scale = 0.75 }\n"));
+    CHECK(holds(mask, "opacity_cutoff = 0.5\n"));
+}
+
 TEST_CASE("d, Tr and map_d of MTL files are opacity") {
     const Folder folder;
     folder.write("a.obj", k_mesh);

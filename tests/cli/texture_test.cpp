@@ -44,8 +44,14 @@ TEST_CASE("mistakes in a texture are reported at its place") {
            {"scene.toml:11:9: error: 'color' is a string, \"wood.ppm\""});
     expect(render("color_texture = \"wood.ppm\"", d), 3,
            {"scene.toml:11:1: error: unknown key 'color_texture'", "write color = { texture = \"a.png\" }"});
-    expect(render("color = { texture = \"wood.ppm\", wrap = \"mirror\" }", d), 3,
-           {"scene.toml:11:40: error: 'wrap': \"mirror\" is not one of 'repeat', 'clamp'"});
+    expect(render("color = { texture = \"wood.ppm\", wrap = \"miror\" }", d), 3,
+           {"scene.toml:11:40: error: 'wrap': \"miror\" is not one of 'repeat', 'clamp', 'mirror'"});
+    expect(render("color = { texture = \"wood.ppm\", wrap_v = \"both\" }", d), 3,
+           {"scene.toml:11:42: error: 'wrap_v': \"both\" is not one of 'same', 'repeat', 'clamp', 'mirror'"});
+    expect(render("color = { texture = \"wood.ppm\", uv = 2 }", d), 3,
+           {"scene.toml:11:38: error: 'uv': 2 is outside its range: 0 to 1"});
+    expect(render("color = { texture = \"wood.ppm\", uv = 1 }", d), 1,
+           {"scene.toml:8:", "object 'ring'", "uv1"});
     expect(render("color = { texture = \"wood.ppm\" }", d, "cube"), 0, {});
     CHECK(d.has("out.ppm"));
 }
@@ -149,6 +155,38 @@ TEST_CASE("a program that cannot have a parameter's texture is refused with its 
                          "generate scene.toml --target povray -o out"),
            1, {"can only approximate this scene", "the texture of 'kd' of object ring becomes its mean"});
     CHECK_FALSE(d.has("out"));
+}
+
+TEST_CASE("mistakes in an attribute of the vertices are reported at their places") {
+    const Folder d({{"wood.ppm", k_image}});
+    expect(with_material("kd = { attribute = \"\" }", d), 3,
+           {"scene.toml:12:20: error: 'attribute' of 'kd' in [object.material] of 'ring' is empty"});
+    expect(with_material("kd = { attribute = \"wear\", texture = \"wood.ppm\" }", d), 3,
+           {"scene.toml:12:28: error: unknown key 'texture'", "attribute", "channel", "scale", "offset"});
+    expect(with_material("kd = { attribute = \"wear\", wrap = \"clamp\" }", d), 3,
+           {"scene.toml:12:28: error: unknown key 'wrap'"});
+    expect(with_material("shininess = { attribute = \"wear\", scale = [1, 2, 3] }", d), 3,
+           {"'scale' of 'shininess' in [object.material] of 'ring' has three numbers"});
+    // A torus has none.
+    expect(with_material("kd = { attribute = \"wear\" }", d, "phong", "render scene.toml -o out.ppm"), 1,
+           {"scene.toml:", "'ring'", "wear"});
+    CHECK_FALSE(d.has("out.ppm"));
+    SECTION("also where a mesh lacks them") {
+        d.write(
+            "worn.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "property float wear\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+            "-1 -1 0 0\n1 -1 0 1\n1 1 0 1\n3 0 1 2\n");
+        const auto mesh_with = [&](const char* material) {
+            return render(std::string("file = \"worn.ply\"\n[object.material]\n") + material, d, "mesh");
+        };
+        expect(mesh_with("shininess = { attribute = \"ware\" }"), 1,
+               {"'ring'", "worn.ply' has no vertex attribute 'ware'; it has 'wear'"});
+        expect(
+            mesh_with("kd = { attribute = \"wear\" }"), 1,
+            {"has a vertex attribute 'wear' with 1 number, of which number 2 is needed", "channel = \"r\""});
+        expect(mesh_with("kd = { attribute = \"wear\", channel = \"r\" }"), 0, {});
+    }
 }
 
 TEST_CASE("explain shows the values that a material has at a pixel, and the texels they come from") {

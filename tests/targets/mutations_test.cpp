@@ -168,11 +168,13 @@ constexpr std::array k_texture_mutations = {
     std::pair{"the shorter side of a footprint decides",
               Edit{"max(dot(a, a), dot(b, b))", "min(dot(a, a), dot(b, b))"}},
     std::pair{"levels are not blended", Edit{"wanted - floor(wanted))", "0.0f)"}},
-    std::pair{"nothing repeats", Edit{"repeats ? x - floor(x) : x", "repeats ? x : x"}},
-    std::pair{"nothing is clamped",
-              Edit{"repeats ? x - floor(x) : x", "x - floor(x) + 0.0f * float(repeats)"}},
-    std::pair{"pictures are upside down", Edit{"(1.0f - color_texture_wrapped(uv.y, t.repeats))",
-                                               "color_texture_wrapped(uv.y, t.repeats)"}},
+    std::pair{"nothing repeats", Edit{"wrap == 0 ? repeated", "wrap == 0 ? x"}},
+    std::pair{"nothing is clamped", Edit{"(wrap == 1 ? x : mirrored)", "(wrap == 1 ? repeated : mirrored)"}},
+    std::pair{"nothing is mirrored", Edit{"(wrap == 1 ? x : mirrored)", "(wrap == 1 ? x : repeated)"}},
+    std::pair{"u decides how v continues",
+              Edit{"color_texture_wrapped(uv.y, t.wrap_v)", "color_texture_wrapped(uv.y, t.wrap_u)"}},
+    std::pair{"pictures are upside down", Edit{"(1.0f - color_texture_wrapped(uv.y, t.wrap_v))",
+                                               "color_texture_wrapped(uv.y, t.wrap_v)"}},
 };
 
 #ifndef CANDELA_TEST_SHADERS

@@ -120,7 +120,7 @@ TEST_CASE("kernel language: every shipped kernel and every template is valid, an
 TEST_CASE(
     "kernel language: the kernel of textures is valid, with the declarations that programs put before it") {
     const std::string before =
-        "struct ColorTexture { bool repeats; };\n"
+        "struct ColorTexture { int wrap_u; int wrap_v; };\n"
         "KERNEL int color_texture_width(ColorTexture t, int level) { return level; }\n"
         "KERNEL int color_texture_height(ColorTexture t, int level) { return level; }\n"
         "KERNEL int color_texture_levels(ColorTexture t) { return 1; }\n"

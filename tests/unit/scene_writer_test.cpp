@@ -200,10 +200,10 @@ TEST_CASE("scenes that differ in one value are different") {
         [](Scene& s) { s.objects[1].encloses = true; },
         [](Scene& s) {
             s.objects[1].color = {255, 255, 255};
-            s.objects[1].color_texture = {.parameter = "color",
-                                          .file = std::string(CANDELA_TEST_SOURCE) + "/LICENSE",
-                                          .wrap = candela::TextureWrap::clamp,
-                                          .transform = {.rotation = 45}};
+            s.objects[1].color_texture = {
+                .parameter = "color",
+                .file = std::string(CANDELA_TEST_SOURCE) + "/LICENSE",
+                .placing = {.transform = {.rotation = 45}, .wrap = candela::TextureWrap::clamp}};
         },
         [](Scene& s) {
             s.objects[1].textures.push_back(
@@ -212,10 +212,19 @@ TEST_CASE("scenes that differ in one value are different") {
                  .channel = candela::TextureChannel::green,
                  .scale = {0.5f, 0.25f, 1},
                  .offset = {0.125f, 0, 0},
-                 .wrap = candela::TextureWrap::clamp,
                  .encoding = candela::TextureEncoding::srgb,
-                 .transform = {.scale = {2, -1}, .rotation = 30, .offset = {0, 0.5f}}});
+                 .placing = {.uv = 1,
+                             .transform = {.scale = {2, -1}, .rotation = 30, .offset = {0, 0.5f}},
+                             .wrap = candela::TextureWrap::mirror,
+                             .wrap_v = candela::TextureWrapV::clamp}});
             s.objects[1].reflection.parameters.set("kd", Vec3{0.625f, 0.25f, 1});
+        },
+        [](Scene& s) {
+            s.objects[1].textures.push_back({.parameter = "kd",
+                                             .attribute = "tint \"1\"",
+                                             .channel = candela::TextureChannel::alpha,
+                                             .scale = {0.5f, 0.25f, 1}});
+            s.objects[1].reflection.parameters.set("kd", Vec3{0.5f, 0.25f, 1});
         },
         [](Scene& s) { s.objects[1].common.emission = {10, 200, 30}; },
         [](Scene& s) { s.objects[1].common.emission_strength = 12.5f; },

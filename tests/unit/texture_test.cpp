@@ -47,13 +47,13 @@ Vec3 texel(const MipMap& map, std::size_t level, int x, int y) {
 }
 
 /// The values, of 1, at up to k_batch_size points.
-std::vector<Vec3> values_at(const MipMap& map, TextureWrap wrap, std::size_t count,
+std::vector<Vec3> values_at(const MipMap& map, const candela::TexturePlacing& placing, std::size_t count,
                             const candela::TextureCoordinates& at) {
     const std::shared_ptr<const MipMap> picture(&map, [](const MipMap*) {});
-    candela::MaterialTextures textures{.textures = {{.picture = picture, .wrap = wrap}}};
+    candela::MaterialTextures textures{.textures = {{.picture = picture, .placing = placing}}};
     for (std::size_t c = 0; c < 3; ++c) textures.numbers.push_back({.texel_channel = c});
     std::vector<candela::AlignedVector<float>> channels(3, candela::AlignedVector<float>(count));
-    candela::evaluate(textures, count, at, channels);
+    candela::evaluate(textures, count, {.uv = {at}}, channels);
     std::vector<Vec3> values;
     for (std::size_t i = 0; i < count; ++i)
         values.push_back({channels[0][i], channels[1][i], channels[2][i]});
@@ -61,11 +61,15 @@ std::vector<Vec3> values_at(const MipMap& map, TextureWrap wrap, std::size_t cou
 }
 
 /// The value at (u, v), of 65535, where a pixel is `texels` of the picture wide and high.
-Vec3 seen(const MipMap& map, float u, float v, TextureWrap wrap = TextureWrap::repeat, float texels = 0) {
+Vec3 seen(const MipMap& map, float u, float v, const candela::TexturePlacing& placing, float texels = 0) {
     const float dudx = texels / static_cast<float>(map.width()),
                 dvdy = texels / static_cast<float>(map.height());
     constexpr float k_zero = 0;
-    return 65535 * values_at(map, wrap, 1, {{&u, &v}, {&dudx, &k_zero}, {&k_zero, &dvdy}})[0];
+    return 65535 * values_at(map, placing, 1, {{&u, &v}, {&dudx, &k_zero}, {&k_zero, &dvdy}})[0];
+}
+
+Vec3 seen(const MipMap& map, float u, float v, TextureWrap wrap = TextureWrap::repeat, float texels = 0) {
+    return seen(map, u, v, candela::TexturePlacing{.wrap = wrap}, texels);
 }
 
 bool is_near(Vec3 a, Vec3 b, float tolerance = 0.02f) { return candela::length(a - b) < tolerance; }
@@ -151,6 +155,54 @@ TEST_CASE("texture: outside its edges it repeats, or continues the edge colours"
     CHECK(is_near(seen(map, 1, v, TextureWrap::clamp), {7000, 0, 0}));
 }
 
+TEST_CASE("texture: mirrored, every other repetition is reversed, and seams have the colours of the edges") {
+    const MipMap map = ramp(8, 1000);
+    const float v = v_of(map, 0);
+    for (const int turn : {-4, -3, -2, -1, 0, 1, 2, 7}) {
+        INFO("repetition " << turn);
+        const float shown = turn % 2 == 0 ? 2000.0f : 5000.0f;
+        const float u = u_of(map, 2) + static_cast<float>(turn);
+        CHECK(is_near(seen(map, u, v, TextureWrap::mirror), {shown, 0, 0}, 0.2f));
+        // From the top row, v = 15 / 16, downwards.
+        const float up = v + static_cast<float>(turn);
+        CHECK(is_near(seen(map, u_of(map, 3), up, TextureWrap::mirror),
+                      {3000, turn % 2 == 0 ? 0.0f : 7000.0f, 0}, 0.2f));
+    }
+    for (const float seam : {-2.0f, 0.0f, 2.0f, 6.0f})
+        CHECK(is_near(seen(map, seam, v, TextureWrap::mirror), {0, 0, 0}, 0.2f));
+    for (const float seam : {-1.0f, 1.0f, 3.0f})
+        CHECK(is_near(seen(map, seam, v, TextureWrap::mirror), {7000, 0, 0}, 0.2f));
+}
+
+TEST_CASE("texture: along u it may continue in another way than along v") {
+    using candela::TextureWrapV;
+    const MipMap map = ramp(8, 1000);
+    // One and a quarter to the right of the centre of texel (1, 5), and as far above it: u = 1 + 7 / 16 and
+    // v = 1 + 9 / 16. Repeated, that is texel (3, 3); clamped, (7, 0); and in a mirror, where u = 9 / 16 and
+    // v = 7 / 16, (4, 4).
+    struct Way {
+        TextureWrap wrap;
+        TextureWrapV wrap_v;
+        float column, row;
+    };
+    for (const Way& way : {Way{TextureWrap::repeat, TextureWrapV::clamp, 3, 0},
+                           Way{TextureWrap::clamp, TextureWrapV::repeat, 7, 3},
+                           Way{TextureWrap::mirror, TextureWrapV::repeat, 4, 3},
+                           Way{TextureWrap::repeat, TextureWrapV::mirror, 3, 4},
+                           Way{TextureWrap::clamp, TextureWrapV::mirror, 7, 4},
+                           Way{TextureWrap::mirror, TextureWrapV::clamp, 4, 0},
+                           Way{TextureWrap::mirror, TextureWrapV::same, 4, 4}}) {
+        INFO(static_cast<int>(way.wrap) << ", " << static_cast<int>(way.wrap_v));
+        const candela::TexturePlacing placing{.wrap = way.wrap, .wrap_v = way.wrap_v};
+        const Vec3 expected{1000 * way.column, 1000 * way.row, 0};
+        CHECK(is_near(seen(map, u_of(map, 1) + 1.25f, v_of(map, 5) + 1.25f, placing), expected, 0.2f));
+        const candela::PlacedTexture placed{
+            .picture = std::shared_ptr<const MipMap>(&map, [](const MipMap*) {}), .placing = placing};
+        CHECK(placed.texel_at(u_of(map, 1) + 1.25f, v_of(map, 5) + 1.25f) ==
+              std::array{static_cast<int>(way.column), static_cast<int>(way.row)});
+    }
+}
+
 TEST_CASE(
     "texture: a pixel that covers two texels sees the next level, and one that covers all sees their mean") {
     const MipMap map = ramp(8, 1000);
@@ -181,7 +233,7 @@ TEST_CASE("texture: the longer side of a footprint decides, in any orientation")
     const float two = 2.0f / 8, diagonal = 2.0f / 8 / std::sqrt(2.0f);
     const auto with = [&](std::array<float, 4> d) {
         const candela::TextureCoordinates at{{&u, &v}, {&d[0], &d[1]}, {&d[2], &d[3]}};
-        return 65535 * values_at(map, TextureWrap::repeat, 1, at)[0];
+        return 65535 * values_at(map, {}, 1, at)[0];
     };
     CHECK(is_near(with({two, zero, zero, zero}), {2500, 2500, 0}));
     CHECK(is_near(with({zero, zero, zero, two}), {2500, 2500, 0}));
@@ -195,7 +247,7 @@ TEST_CASE("texture: it is looked up point by point, for any number of points") {
     for (std::size_t i = 0; i < u.size(); ++i) u[i] = u_of(map, static_cast<double>(i % 8));
     const candela::ConstVec2Span none{zero.data(), zero.data()};
     for (std::size_t count = 1; count <= u.size(); ++count) {
-        const auto values = values_at(map, TextureWrap::repeat, count, {{u.data(), v.data()}, none, none});
+        const auto values = values_at(map, {}, count, {{u.data(), v.data()}, none, none});
         for (std::size_t i = 0; i < count; ++i) {
             REQUIRE(values[i].x == Approx(8000 * static_cast<double>(i % 8) / 65535).margin(1e-6));
             REQUIRE(values[i].y == Approx(8000.0 / 65535).margin(1e-6));
@@ -208,7 +260,7 @@ TEST_CASE("texture: non-finite coordinates and footprints show some texel") {
     const MipMap map = mip_map(4, 4, [](int, int) { return Vec3{20000, 20000, 20000}; });
     for (const float odd : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
                             -std::numeric_limits<float>::infinity(), 1e30f, -1e30f}) {
-        for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::clamp}) {
+        for (const TextureWrap wrap : {TextureWrap::repeat, TextureWrap::clamp, TextureWrap::mirror}) {
             CHECK(is_near(seen(map, odd, 0.5f, wrap), {20000, 20000, 20000}, 1));
             CHECK(is_near(seen(map, 0.5f, odd, wrap), {20000, 20000, 20000}, 1));
             CHECK(is_near(seen(map, 0.5f, 0.5f, wrap, odd), {20000, 20000, 20000}, 1));

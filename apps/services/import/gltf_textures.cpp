@@ -66,16 +66,25 @@ std::optional<Textures::Placed> Textures::texture(const Json& from, const char* 
     std::optional<std::size_t> set = index_of(*info, "texCoord");
     if (transform != nullptr && find(*transform, "texCoord") != nullptr)
         set = index_of(*transform, "texCoord");
-    if (set.value_or(0) != 0) {
-        model_.count("texture coordinates", "a texture that uses further texture coordinates is left out",
-                     "{} textures that use further texture coordinates are left out");
+    const std::size_t number = set.value_or(0);
+    if (number > 1 || (number == 1 && !has_second_uv())) {
+        model_.count("texture coordinates", "a texture on a further set of texture coordinates is left out",
+                     "{} textures on further sets of texture coordinates are left out");
         return std::nullopt;
     }
     MeasuredImage* const image = image_of(*info, material);
     if (image == nullptr) return std::nullopt;
-    return Placed{.image = image,
-                  .clamps = clamps(*info),
-                  .placing = transform != nullptr ? placing_of(*transform) : Placing{}};
+    Placed placed{.image = image, .placing = transform != nullptr ? placing_of(*transform) : Placing{}};
+    wrap(*info, placed.placing);
+    placed.placing.uv = static_cast<int>(number);
+    return placed;
+}
+
+bool Textures::has_second_uv() const {
+    for (const Json& mesh : array_of(json_, "meshes"))
+        for (const Json& primitive : array_of(mesh, "primitives"))
+            if (find(object_of(primitive, "attributes"), "TEXCOORD_1") != nullptr) return true;
+    return false;
 }
 
 void Textures::show(const Json& from, const char* name, const std::string& material,
@@ -86,7 +95,6 @@ void Textures::show(const Json& from, const char* name, const std::string& mater
     to.color_map = ParameterMap{.parameter = "color",
                                 .image = index_of_image(*placed->image),
                                 .scale = shortened(std::move(factor)),
-                                .clamps = placed->clamps,
                                 .placing = placed->placing};
 }
 
@@ -115,7 +123,6 @@ std::vector<double> Textures::map(const Placed& picture, Channel channel, const 
                            .channel = name_of(channel),
                            .scale = shortened(std::move(scale)),
                            .offset = shortened(std::move(offset)),
-                           .clamps = picture.clamps,
                            .placing = picture.placing});
     return mean;
 }
@@ -128,21 +135,25 @@ void Textures::tilt_normals(const Json& material, const std::string& name, Mater
     to.normals = ParameterMap{.parameter = {},
                               .image = index_of_image(*picture->image),
                               .scale = shortened({std::clamp(scale, -k_steepest, k_steepest)}),
-                              .clamps = picture->clamps,
                               .placing = picture->placing};
 }
 
-bool Textures::clamps(const Json& info) {
+void Textures::wrap(const Json& info, Placing& to) const {
     const Json& texture = *element(array_of(json_, "textures"), index_of(info, "index"));
     const Json* const sampler = element(array_of(json_, "samplers"), index_of(texture, "sampler"));
-    if (sampler == nullptr) return false;
-    constexpr std::size_t k_clamp = 33071, k_mirror = 33648, k_repeat = 10497;
-    const std::size_t s = index_of(*sampler, "wrapS").value_or(k_repeat),
-                      t = index_of(*sampler, "wrapT").value_or(k_repeat);
-    if (s == k_mirror || t == k_mirror)
-        model_.note("mirrored repetition of textures becomes plain repetition");
-    if (s != t) model_.note("textures that repeat in only one direction repeat in both");
-    return s == k_clamp && t == k_clamp;
+    if (sampler == nullptr) return;
+    const auto word = [&](const char* key) {
+        switch (index_of(*sampler, key).value_or(0)) {
+            case 33071:
+                return "clamp";
+            case 33648:
+                return "mirror";
+            default:
+                return "repeat";
+        }
+    };
+    to.wrap = word("wrapS");
+    to.wrap_v = word("wrapT");
 }
 
 std::size_t Textures::index_of_image(MeasuredImage& image) {

@@ -28,7 +28,6 @@ class Textures {
     /// A picture as a material places it.
     struct Placed {
         MeasuredImage* image = nullptr;
-        bool clamps = false;
         Placing placing{};
     };
 
@@ -51,7 +50,10 @@ class Textures {
     /// The image of a texture; null if it cannot be read.
     MeasuredImage* image_of(const Json& info, const std::string& material);
     MeasuredImage* image_at(std::size_t index, const std::string& material);
-    bool clamps(const Json& info);
+    /// How a texture continues beyond its edges.
+    void wrap(const Json& info, Placing& to) const;
+    /// Whether a mesh of the file has them.
+    bool has_second_uv() const;
     std::size_t index_of_image(MeasuredImage& image);
 
     Container& container_;

@@ -223,7 +223,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
         model.images.clear();
         for (Material& material : model.materials) {
             material.color_map.reset();
-            material.maps.clear();
+            std::erase_if(material.maps, [](const ParameterMap& map) { return map.attribute.empty(); });
         }
     }
     if (geometry.has_uv) measure_heights(model, source, geometry, registry);

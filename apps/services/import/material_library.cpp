@@ -46,7 +46,7 @@ bool limit(std::vector<double>& kd, std::vector<double>& ks) {
 /// The map where its statement places it.
 ParameterMap placed(ParameterMap map, const mesh_io::MtlMap& statement) {
     constexpr double k_most = 1e6;
-    map.clamps = statement.clamps;
+    if (statement.clamps) map.placing.wrap = map.placing.wrap_v = "clamp";
     for (std::size_t k = 0; k < 2; ++k) {
         map.placing.scale[k] = std::clamp(statement.scale[k], -k_most, k_most);
         map.placing.offset[k] = std::clamp(statement.offset[k], -k_most, k_most);

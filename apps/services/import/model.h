@@ -66,8 +66,13 @@ struct Placing {
     std::array<double, 2> scale{1, 1};
     double rotation = 0;  // degrees, counter-clockwise
     std::array<double, 2> offset{0, 0};
+    // In a scene's words:
+    std::string_view wrap = "repeat", wrap_v = "repeat";
+    int uv = 0;  // which texture coordinates
 
-    friend bool operator==(const Placing&, const Placing&) = default;
+    bool is_transformed() const {
+        return scale != std::array{1.0, 1.0} || rotation != 0 || offset != std::array{0.0, 0.0};
+    }
 };
 
 /// In four digits.
@@ -75,13 +80,14 @@ double rounded(double number);
 /// The same; one number if all are equal.
 std::vector<double> shortened(std::vector<double> numbers);
 
-/// A picture from which a parameter takes its value at each point: offset + scale * texel.
+/// A picture from which a parameter takes its value at each point: offset + scale * texel; or an attribute of
+/// the vertices instead of the texel.
 struct ParameterMap {
     std::string parameter;
     std::size_t image = 0;                    // index in Model::images
+    std::string attribute{};                  // instead of it
     std::string channel{};                    // r, g, b or a; empty: all three, encoded like colours
     std::vector<double> scale{1}, offset{0};  // one number or three
-    bool clamps = false;                      // the picture is clamped at its edges
     Placing placing{};
 };
 

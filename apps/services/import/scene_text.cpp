@@ -222,8 +222,9 @@ class Writer {
         } else {
             for (const auto& [name, value] : material->values) {
                 const auto map = std::ranges::find(material->maps, name, &ParameterMap::parameter);
-                add(name, map != material->maps.end() && setting_.is_textured ? text_of(*map)
-                                                                              : numbers_text(value));
+                const bool varies =
+                    map != material->maps.end() && (setting_.is_textured || !map->attribute.empty());
+                add(name, varies ? text_of(*map) : numbers_text(value));
             }
             add_emission(*material);
         }
@@ -245,7 +246,10 @@ class Writer {
 
     /// An inline table with what differs from the defaults.
     std::string text_of(const ParameterMap& map, bool has_heights = false) const {
-        std::string text = fmt::format("{{ texture = {}", candela::toml_text(setting_.images[map.image]));
+        std::string text =
+            map.attribute.empty()
+                ? fmt::format("{{ texture = {}", candela::toml_text(setting_.images[map.image]))
+                : fmt::format("{{ attribute = {}", candela::toml_text(map.attribute));
         const auto add_entry = [&](const char* key, const std::string& value) {
             text += fmt::format(", {} = {}", key, value);
         };
@@ -256,8 +260,11 @@ class Writer {
             add_entry("scale", numbers_text(map.scale));
         }
         if (map.offset != std::vector<double>{0}) add_entry("offset", numbers_text(map.offset));
-        if (map.clamps) add_entry("wrap", "\"clamp\"");
-        if (map.placing != Placing{})
+        const Placing& placing = map.placing;
+        if (placing.wrap != "repeat") add_entry("wrap", candela::toml_text(placing.wrap));
+        if (placing.wrap_v != placing.wrap) add_entry("wrap_v", candela::toml_text(placing.wrap_v));
+        if (placing.uv != 0) add_entry("uv", fmt::format("{}", placing.uv));
+        if (placing.is_transformed())
             add_entry("transform", fmt::format("{{ scale = {}, rotation = {}, offset = {} }}",
                                                pair_text(map.placing.scale), real(map.placing.rotation),
                                                pair_text(map.placing.offset)));

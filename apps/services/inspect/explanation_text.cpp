@@ -106,7 +106,9 @@ class Writer {
         if (!candela::uniform_opacity(surface)) {
             const auto texture =
                 std::ranges::find(object.common.textures, "opacity", &candela::ParameterTexture::parameter);
-            remark = "  texture " + std::filesystem::path(texture->file).filename().string();
+            remark = texture->attribute.empty()
+                         ? "  texture " + std::filesystem::path(texture->file).filename().string()
+                         : "  " + attribute_text(*texture);
         }
         if (surface.opacity_cutoff > 0)
             remark +=
@@ -124,18 +126,18 @@ class Writer {
             const std::size_t index = object.reflection.parameters.index_of(texture.parameter);
             const candela::Parameter& parameter = object.reflection.parameters.schema()[index];
             std::string value;
-            const candela::PlacedTexture* placed = nullptr;
+            const candela::TexturedNumber* number = nullptr;
             for (std::size_t i = 0; i < point.parameters.size(); ++i) {
                 const candela::VaryingValue& own = point.parameters[i];
                 if (own.parameter != index) continue;
                 const float unit = parameter.unit == "deg" ? 180 / std::numbers::pi_v<float> : 1.0f;
                 value += fmt::format("{}{:.6g}", value.empty() ? "" : ", ", unit * own.value);
-                placed = &textures.textures[textures.numbers[i].texture];
+                number = &textures.numbers[i];
             }
-            if (placed == nullptr) continue;
+            if (number == nullptr) continue;
             if (parameter.type != candela::ParamType::real) value = fmt::format("[{}]", value);
             line(2, fmt::format("{} = {}  {}", texture.parameter, value,
-                                texel_text(texture.file, *placed, point)));
+                                source_text(texture, textures, *number, point)));
         }
     }
 
@@ -149,9 +151,23 @@ class Writer {
               map.has_heights ? "N_shading, tilted by the slopes" : "N_shading, tilted");
     }
 
+    static std::string attribute_text(const candela::ParameterTexture& texture) {
+        return fmt::format("attribute {} of the vertices", texture.attribute);
+    }
+
+    /// Where a number of the material comes from.
+    static std::string source_text(const candela::ParameterTexture& texture,
+                                   const candela::MaterialTextures& textures,
+                                   const candela::TexturedNumber& number, const PointTrace& point) {
+        if (!texture.attribute.empty()) return attribute_text(texture);
+        return texel_text(texture.file, textures.textures[number.texture], point);
+    }
+
     static std::string texel_text(const std::string& file, const candela::PlacedTexture& placed,
                                   const PointTrace& point) {
-        const std::array<int, 2> texel = placed.texel_at(point.u, point.v);
+        const bool is_second = placed.placing.uv != 0;
+        const std::array<int, 2> texel = placed.texel_at(is_second ? point.second_uv[0] : point.u,
+                                                         is_second ? point.second_uv[1] : point.v);
         return fmt::format("texel ({}, {}) of {}", texel[0], texel[1],
                            std::filesystem::path(file).filename().string());
     }
@@ -164,7 +180,7 @@ class Writer {
             const auto texture =
                 std::ranges::find(object.common.textures, parameter, &candela::ParameterTexture::parameter);
             if (texture == object.common.textures.end()) return std::string();
-            return texel_text(texture->file, textures.textures[textures.numbers[first].texture], point);
+            return source_text(*texture, textures, textures.numbers[first], point);
         };
         if (surface.is_occluded()) {
             const std::string texel = remark("occlusion", textures.occlusion);
@@ -195,8 +211,7 @@ class Writer {
         if (length(point.tangent) > 0) value(2, "T", point.tangent);
         value(2, "C_o", point.color,
               object.color_texture
-                  ? texel_text(object.color_texture->file,
-                               textures.textures[textures.numbers[textures.color].texture], point)
+                  ? source_text(*object.color_texture, textures, textures.numbers[textures.color], point)
                   : "");
         write_textures(point, object, textures);
         write_common(point, object, surface);

@@ -50,13 +50,21 @@ Json parameter_schema(const Parameter& p) {
 }
 
 constexpr const char* k_texture = "texture";
+constexpr const char* k_attribute = "attribute";
+
+/// A value, or the tables that there may be instead.
+Json textured(Json value) {
+    Json choices = Json::array({std::move(value)});
+    for (const char* const table : {k_texture, k_attribute})
+        choices.push_back({{"$ref", fmt::format("#/definitions/{}", table)}});
+    return choices;
+}
 
 /// The value of a plugin's parameter, or the texture that it may have instead.
 Json value_json(const Manifest& m, const Parameter& p) {
     Json value = value_json(p);
     if (!takes_texture(m, p)) return value;
-    Json texture{{"$ref", fmt::format("#/definitions/{}", k_texture)}};
-    return {{"anyOf", Json::array({std::move(value), std::move(texture)})}};
+    return {{"anyOf", textured(std::move(value))}};
 }
 
 Json parameter_schema(const Manifest& m, const Parameter& p) {
@@ -69,9 +77,8 @@ Json parameter_schema(const Manifest& m, const Parameter& p) {
 /// The value of a key, or the texture that it may have instead.
 Json textured_schema(const Parameter& p) {
     Json schema = parameter_schema(p);
-    Json texture{{"$ref", fmt::format("#/definitions/{}", k_texture)}};
     return {{"description", schema["description"]},
-            {"anyOf", Json::array({value_json(p), std::move(texture)})},
+            {"anyOf", textured(value_json(p))},
             {"default", schema["default"]}};
 }
 
@@ -178,7 +185,10 @@ class SchemaWriter {
             root["properties"][p.name] = is_list ? list_schema(p) : parameter_schema(p);
         }
         for (const TableSchema& table : scene_schema()) root["properties"][table.name] = schema_of(table);
-        if (!all(PluginKind::reflection).empty()) definitions_[k_texture] = schema_of(texture_schema());
+        if (!all(PluginKind::reflection).empty()) {
+            definitions_[k_texture] = schema_of(texture_schema());
+            definitions_[k_attribute] = schema_of(vertex_attribute_schema());
+        }
         root["additionalProperties"] = false;
         put_unless_empty(root, "dependencies", material_dependencies());
         put_unless_empty(root, "definitions", std::move(definitions_));

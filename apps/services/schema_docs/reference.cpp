@@ -102,6 +102,7 @@ class ReferenceWriter {
         for (const TableSchema& schema : scene_schema()) table(schema);
         table(material_schema());
         table(texture_schema());
+        table(vertex_attribute_schema());
         for (const Section& section : k_sections) {
             line("\n## {}\n\n{}", section.heading, section.text);
             if (section.kind == PluginKind::image) {

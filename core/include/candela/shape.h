@@ -14,6 +14,16 @@
 
 namespace candela {
 
+/// A number of a vertex besides its position, normal, first texture coordinates and colour.
+struct VertexChannel {
+    /// As the shape names it; "uv1" has the second texture coordinates, and "color", if its numbers are more
+    /// than a colour, what the file has.
+    std::string_view attribute;
+    std::size_t channel = 0;  // of the attribute's numbers
+
+    friend bool operator==(const VertexChannel&, const VertexChannel&) = default;
+};
+
 /// Which optional arrays the renderer uses. A shape omits those that are not requested and those for which it
 /// has no values.
 struct MeshRequest {
@@ -25,6 +35,8 @@ struct MeshRequest {
     bool normals = true;
     bool facets = false;                                   // whether the renderer supports a faceted mesh
     ColorEncoding color_management = ColorEncoding::srgb;  // the scene's: how colours in files are decoded
+    /// Not optional: a shape without one of them throws, or has no channels.
+    std::span<const VertexChannel> channels{};
 };
 
 /// Whether a shape knows its surface to be closed.
@@ -44,6 +56,7 @@ struct MeshLayout {
     bool has_uv = false;
     bool has_derivatives = false;
     bool has_color = false;
+    bool has_channels = false;       // all that are requested
     bool has_smooth_groups = false;  // otherwise every vertex has its own normal
     /// Every triangle is flat: the normal at its points is its own, and its vertices, shared or not, have
     /// none. Only if facets are requested.
@@ -65,6 +78,7 @@ struct MeshSpans {
     std::span<std::uint32_t>
         smooth_group;  // per vertex, 0 … vertices - 1; vertices of one group share a normal
     Vec3Span color{};  // red, green, blue: intensities, 0 to 1, which multiply the object's colour
+    std::span<float* const> channels{};  // an array for each of MeshRequest::channels
 };
 
 /// Receives a shape's triangles. Owned by the host; used only during tessellate().

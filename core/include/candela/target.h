@@ -80,14 +80,25 @@ struct ExportedTexture {
     std::span<const ExportedTextureLevel> levels{};
 };
 
+/// How a texture continues beyond its edges.
+enum class ExportedWrap : int {
+    repeat,
+    clamp,   // the values at its edges
+    mirror,  // repeated, every other time reversed
+};
+
 /// A number of a material that comes from a picture: offset + scale * texel at each point, from `minimum` to
-/// `maximum`, in the units in which an instance receives it.
+/// `maximum`, in the units in which an instance receives it; or from a channel of the vertices instead.
 struct ExportedTexturedNumber {
-    std::size_t parameter = 0;      // of the object's own reflection model
-    std::size_t channel = 0;        // of the parameter: 0 to 2
-    std::size_t texture = 0;        // index into ExportedScene::textures
-    std::size_t texel_channel = 0;  // 0 to 2
-    bool repeats = true;            // the texture, beyond its edges
+    static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+
+    std::size_t parameter = 0;            // of the object's own reflection model
+    std::size_t channel = 0;              // of the parameter: 0 to 2
+    std::size_t texture = 0;              // index into ExportedScene::textures
+    std::size_t texel_channel = 0;        // 0 to 2
+    std::size_t vertex_channel = k_none;  // index into ExportedMesh::channels, instead of a texture
+    ExportedWrap wrap[2] = {};            // along u and v
+    int uv = 0;                           // the set of texture coordinates: 0 or 1
     /// Of texture coordinates: u' = placing[0] * u + placing[1] * v + placing[2], v' with the other three.
     float placing[6] = {1, 0, 0, 0, 1, 0};
     float scale = 1, offset = 0;
@@ -97,7 +108,8 @@ struct ExportedTexturedNumber {
 /// A picture that tilts an object's normals, where light is evaluated for each fragment.
 struct ExportedNormalMap {
     std::size_t texture = 0;                // index into ExportedScene::textures
-    bool repeats = true;                    // the texture, beyond its edges
+    ExportedWrap wrap[2] = {};              // along u and v
+    int uv = 0;                             // the set of texture coordinates: 0 or 1
     float placing[6] = {1, 0, 0, 0, 1, 0};  // of texture coordinates, as of ExportedTexturedNumber
     /// The picture has slopes of heights instead of normals: in its first two channels, where 32768 of 65535
     /// is level.
@@ -181,6 +193,8 @@ struct ExportedMesh {
     ConstVec3Span authored_normal{};  // unit, from the shape; zero at a vertex without one
     std::span<const std::uint32_t> smooth_group{};  // per vertex: vertices of one group share a normal
     ConstVec2Span uv{};
+    ConstVec2Span second_uv{};                           // if one of the object's textures is placed by them
+    std::span<const std::span<const float>> channels{};  // numbers per vertex, for ExportedTexturedNumber
     ConstVec3Span color{};  // intensities, 0 to 1, which multiply the object's colour
     ConstVec3Span dpdu{};   // partial derivatives of position
     ConstVec3Span dpdv{};
@@ -281,6 +295,8 @@ struct TargetAbilities {
     bool vertex_colors = false;          // ExportedMesh::color; otherwise the host refuses a mesh that has it
     bool textures = false;               // ExportedObject::color_numbers
     bool textured_numbers = false;       // ExportedObject::textured_numbers
+    bool second_uv = false;              // ExportedMesh::second_uv
+    bool vertex_channels = false;        // ExportedTexturedNumber::vertex_channel
     bool normal_maps = false;            // ExportedObject::normal_map
     bool emission = false;               // ExportedObject::emission, and its texture
     bool occlusion = false;              // ExportedObject::occlusion, and its texture

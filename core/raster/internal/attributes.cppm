@@ -22,9 +22,17 @@ inline Indices corners_of(const Mesh& mesh, std::uint32_t triangle) {
     return {mesh.indices[first], mesh.indices[first + 1], mesh.indices[first + 2]};
 }
 
-/// Computes colour, uv, derivatives and triangle of points with known barycentric coordinates.
+/// Computes colour, uv, derivatives and triangle of points with known barycentric coordinates; channels are
+/// left to blend_channels().
 void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds needs, std::size_t first,
                       std::size_t count, SurfacePoints& points);
+
+/// Makes room for the mesh's channels.
+void allocate_channels(const Mesh& mesh, SurfacePoints& points);
+
+/// Computes the mesh's channels from number `channel` on.
+void blend_channels(const Mesh& mesh, const Indices& vertices, std::size_t channel, std::size_t first,
+                    std::size_t count, SurfacePoints& points);
 
 /// Evaluates point `i` of a batch, a position on a triangle.
 void evaluate_point(const Mesh& mesh, std::uint32_t triangle, Vec3 weight, PointNeeds needs, std::size_t i,

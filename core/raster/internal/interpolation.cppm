@@ -28,11 +28,17 @@ enum class Interpolated {
     position_and_normal_and_uv,  // also texture coordinates with their derivatives
     all_but_uv,
     all,
+    uv,  // only texture coordinates with their derivatives
 };
 
 /// Whether `what` includes texture coordinates, which come with their derivatives.
 constexpr bool has_uv(Interpolated what) {
-    return what == Interpolated::position_and_normal_and_uv || what == Interpolated::all;
+    return what == Interpolated::position_and_normal_and_uv || what == Interpolated::all ||
+           what == Interpolated::uv;
+}
+/// Whether `what` includes positions and vertex normals.
+constexpr bool has_points(Interpolated what) {
+    return what != Interpolated::barycentric && what != Interpolated::uv;
 }
 /// Whether `what` includes barycentric coordinates and face normals.
 constexpr bool has_faces(Interpolated what) {

@@ -9,6 +9,7 @@ module;
 #include <functional>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -107,20 +108,20 @@ Field<T> field(ParamType type, const char* name, const char* meaning, First T::*
     return result;
 }
 /// One of `words`, in the order of the enumeration.
-template <class T, class Enum>
+template <class T, class First, class... Rest>
 Field<T> choice(const std::vector<std::string>& words, const char* name, const char* meaning,
-                Enum T::* member) {
-    return {.parameter = {.name = name,
-                          .type = ParamType::choice,
-                          .meaning = meaning,
-                          .default_value = words[static_cast<std::size_t>(T{}.*member)],
-                          .choices = words},
-            .get = [=](const T& of) { return Value(words[static_cast<std::size_t>(of.*member)]); },
-            .set =
-                [=](T& of, const Value& value) {
-                    const auto word = std::ranges::find(words, std::get<std::string>(value));
-                    of.*member = static_cast<Enum>(word - words.begin());
-                }};
+                First T::* first, Rest... rest) {
+    Field<T> result{
+        .parameter = {.name = name, .type = ParamType::choice, .meaning = meaning, .choices = words},
+        .get = [=](const T& of) { return Value(words[static_cast<std::size_t>(((of.*first).*....*rest))]); },
+        .set =
+            [=](T& of, const Value& value) {
+                const auto word = std::ranges::find(words, std::get<std::string>(value));
+                auto& member = ((of.*first).*....*rest);
+                member = static_cast<std::remove_cvref_t<decltype(member)>>(word - words.begin());
+            }};
+    result.parameter.default_value = result.get(T{});
+    return result;
 }
 /// Two numbers.
 template <class T>
@@ -196,8 +197,9 @@ struct OwnTables {
     Table<LightSource> light;
     Table<Object> object;
     Table<NormalMap> normal_map, bump_map;
-    Table<CommonMaterial> material;   // of any model
-    Table<ParameterTexture> texture;  // of a parameter
+    Table<CommonMaterial> material;     // of any model
+    Table<ParameterTexture> texture;    // of a parameter
+    Table<ParameterTexture> attribute;  // of the vertices, which gives a parameter
     Table<TextureTransform> texture_transform;
     Table<Orbit> orbit;
     Table<Track> track;

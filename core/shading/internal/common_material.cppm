@@ -12,7 +12,7 @@ import candela.raster;
 namespace candela {
 
 /// Where textures are read.
-TextureCoordinates coordinates_of(const SurfacePoints& points);
+TexturedPoints textured(const SurfacePoints& points);
 
 /// The emission of points whose textures have been evaluated.
 void find_emission(const SurfaceModels& surface, const SurfacePoints& points, std::size_t count,

@@ -29,7 +29,6 @@ struct PicturePoints {
 struct TextureFootprints {
     std::size_t count = 0;
     int width = 0, height = 0;  // of the pictures
-    TextureWrap wrap = TextureWrap::repeat;
     PicturePoints points;
     TexelFootprints finer, coarser;
     bool is_between_levels = false;  // some point; otherwise `coarser` is not filled
@@ -37,11 +36,10 @@ struct TextureFootprints {
     std::size_t level = 0;           // if they are, the finer one
 
     /// At most k_batch_size points.
-    void find(const MipMap& picture, TextureWrap wrap, std::size_t count, const TextureCoordinates& at);
+    void find(const MipMap& picture, const std::array<TextureWrap, 2>& wraps, std::size_t count,
+              const TextureCoordinates& at);
 
-    bool fit(const MipMap& picture, TextureWrap wrapped) const {
-        return picture.width() == width && picture.height() == height && wrapped == wrap;
-    }
+    bool fit(const MipMap& picture) const { return picture.width() == width && picture.height() == height; }
 };
 
 }  // namespace candela

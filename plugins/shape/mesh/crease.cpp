@@ -211,7 +211,8 @@ class Numbering {
 
 SplitVertices split_at_creases(const mesh_io::Surface& surface, const Corners& corners, double crease_angle) {
     const mesh_io::Array<Vec3> normals = normals_of(surface);
-    const bool merges = surface.u.empty() && surface.color.empty() && surface.normal.empty();
+    const bool merges =
+        surface.u.empty() && surface.color.empty() && surface.normal.empty() && surface.attributes.empty();
     const std::size_t places = corners.places();
     SplitVertices split;
     // Numbered within each place for now.

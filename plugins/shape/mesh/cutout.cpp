@@ -155,6 +155,9 @@ class Cutter {
         result_.is_color_linear = from.is_color_linear;
         result_.losses = from.losses;
         result_.notes = from.notes;
+        for (const mesh_io::Attribute& attribute : from.attributes)
+            result_.attributes.push_back(
+                {attribute.name, std::vector<mesh_io::Array<float>>(attribute.channels.size())});
     }
 
     /// Returns nothing if there would be more than `most` triangles.
@@ -193,6 +196,9 @@ class Cutter {
             if (!from_.tangent_side.empty())
                 result_.tangent_side.push_back(mean(from_.tangent_side) < 0 ? -1.0f : 1.0f);
             add_mean(from_.color, result_.color);
+            for (std::size_t a = 0; a < from_.attributes.size(); ++a)
+                for (std::size_t c = 0; c < from_.attributes[a].channels.size(); ++c)
+                    result_.attributes[a].channels[c].push_back(mean(from_.attributes[a].channels[c]));
             result_.u.push_back(mean(from_.u));
             result_.v.push_back(mean(from_.v));
         }

@@ -64,7 +64,8 @@ std::shared_ptr<SharedFile> SharedFile::of(const std::string& file, const mesh_i
     return shared;
 }
 
-std::shared_ptr<const Loaded> SharedFile::loaded(const std::function<std::shared_ptr<const Loaded>()>& read) {
+std::shared_ptr<const Loaded> SharedFile::loaded(mesh_io::Attributes attributes,
+                                                 const std::function<std::shared_ptr<const Loaded>()>& read) {
     const auto states_now = [&](const mesh_io::Surface* surface) {
         std::vector<mesh_io::FileState> states{mesh_io::state_of(file_)};
         if (surface != nullptr)
@@ -74,7 +75,8 @@ std::shared_ptr<const Loaded> SharedFile::loaded(const std::function<std::shared
     };
     {
         const std::scoped_lock lock(mutex_);
-        if (loaded_ != nullptr && states_ == states_now(&loaded_->surface())) return loaded_;
+        if (loaded_ != nullptr && attributes_ >= attributes && states_ == states_now(&loaded_->surface()))
+            return loaded_;
     }
     // Unlocked: a thread that waits for others within read() may be given work that enters this function.
     const mesh_io::FileState before = mesh_io::state_of(file_);
@@ -83,6 +85,7 @@ std::shared_ptr<const Loaded> SharedFile::loaded(const std::function<std::shared
     states[0] = before;
     const std::scoped_lock lock(mutex_);
     loaded_ = result;
+    attributes_ = attributes;
     states_ = std::move(states);
     return result;
 }

@@ -53,9 +53,10 @@ class SharedFile {
     static std::shared_ptr<SharedFile> of(const std::string& file, const mesh_io::Origin& origin,
                                           mesh_io::FileScope reach, bool keeps_sides);
 
-    /// The last result of `read`, unless the file or one that it names has changed since. `read` may run on
-    /// several threads at once.
-    std::shared_ptr<const Loaded> loaded(const std::function<std::shared_ptr<const Loaded>()>& read);
+    /// The last result of `read`, unless the file or one that it names has changed since, or attributes are
+    /// needed and were skipped. `read` may run on several threads at once.
+    std::shared_ptr<const Loaded> loaded(mesh_io::Attributes attributes,
+                                         const std::function<std::shared_ptr<const Loaded>()>& read);
 
   private:
     explicit SharedFile(std::string file) : file_(std::move(file)) {}
@@ -63,6 +64,7 @@ class SharedFile {
     std::string file_;
     std::mutex mutex_;
     std::shared_ptr<const Loaded> loaded_;
+    mesh_io::Attributes attributes_{};        // of loaded_
     std::vector<mesh_io::FileState> states_;  // of the file and those that it names, before they were read
 };
 

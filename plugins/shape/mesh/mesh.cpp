@@ -60,7 +60,8 @@ Format format_of(const std::filesystem::path& file) {
 }
 
 mesh_io::Surface surface_of(const std::filesystem::path& file, const mesh_io::Origin& origin,
-                            mesh_io::FileScope reach, const mesh_io::Progress& progress) {
+                            mesh_io::FileScope reach, mesh_io::Attributes attributes,
+                            const mesh_io::Progress& progress) {
     const Format format = format_of(file);
     mesh_io::Array<char> bytes;
     if (format != Format::stl) bytes = mesh_io::read_file(file);
@@ -70,7 +71,7 @@ mesh_io::Surface surface_of(const std::filesystem::path& file, const mesh_io::Or
             surface = mesh_io::read_obj(mesh_io::text_of(bytes), origin, progress);
             break;
         case Format::ply:
-            surface = mesh_io::read_ply(mesh_io::text_of(bytes), origin, progress);
+            surface = mesh_io::read_ply(mesh_io::text_of(bytes), origin, progress, attributes);
             break;
         case Format::stl: {
             mesh_io::Pieces pieces(file);
@@ -78,7 +79,8 @@ mesh_io::Surface surface_of(const std::filesystem::path& file, const mesh_io::Or
             break;
         }
         case Format::gltf:
-            surface = mesh_io::read_gltf(mesh_io::text_of(bytes), origin, file.parent_path(), reach);
+            surface =
+                mesh_io::read_gltf(mesh_io::text_of(bytes), origin, file.parent_path(), reach, attributes);
             break;
     }
     if (surface.triangles() == 0) throw mesh_io::BadFile("has no faces, and so no triangles");
@@ -143,13 +145,15 @@ class FileMesh final : public candela::Shape {
 
     void tessellate(const candela::MeshRequest& request, candela::MeshSink& sink) const override {
         try {
+            const auto attributes =
+                request.channels.empty() ? mesh_io::Attributes::skipped : mesh_io::Attributes::read;
             const auto read = [&] {
                 const auto reading = [&](double part) { sink.progress(k_read * part); };
-                mesh_io::Surface surface = surface_of(file_, origin_, reach_, reading);
+                mesh_io::Surface surface = surface_of(file_, origin_, reach_, attributes, reading);
                 sink.progress(k_read);
                 return std::make_shared<const mesh::Loaded>(std::move(surface), keeps_sides());
             };
-            std::shared_ptr<const mesh::Loaded> whole = shared_->loaded(read);
+            std::shared_ptr<const mesh::Loaded> whole = shared_->loaded(attributes, read);
             sink.progress(k_oriented);
             if (part_.empty() && cutout_.empty()) {
                 std::shared_ptr<const mesh::SplitVertices> split;
@@ -177,6 +181,26 @@ class FileMesh final : public candela::Shape {
     }
     bool needs_split(const mesh_io::Surface& surface, const candela::MeshRequest& request) const {
         return request.normals && !is_faceted(surface, request) && !has_all_normals(surface);
+    }
+
+    static const mesh_io::Array<float>& channel_of(const mesh_io::Surface& surface,
+                                                   const candela::VertexChannel& wanted) {
+        const auto found = std::ranges::find(surface.attributes, wanted.attribute, &mesh_io::Attribute::name);
+        if (found != surface.attributes.end()) {
+            if (wanted.channel < found->channels.size()) return found->channels[wanted.channel];
+            throw mesh_io::BadFile(fmt::format(
+                "has a vertex attribute '{}' with {}, of which number {} is needed; to take one, set channel "
+                "= "
+                "\"r\"",
+                wanted.attribute, mesh_io::counted(found->channels.size(), "number"), wanted.channel + 1));
+        }
+        if (wanted.attribute == "uv1") throw mesh_io::BadFile("has no second set of texture coordinates");
+        std::vector<std::string> names;
+        for (const mesh_io::Attribute& attribute : surface.attributes)
+            if (attribute.name != "uv1") names.push_back(mesh_io::in_quotes(attribute.name));
+        throw mesh_io::BadFile(fmt::format("has no vertex attribute {}; it has {}",
+                                           mesh_io::in_quotes(wanted.attribute),
+                                           names.empty() ? "none" : mesh_io::listed(names)));
     }
 
     bool keeps_sides() const { return sides_ != Sides::outside; }
@@ -213,6 +237,7 @@ class FileMesh final : public candela::Shape {
             // no better tangents.
             .has_derivatives = request.derivatives,
             .has_color = request.color && uses_colors_ && !surface.color.empty(),
+            .has_channels = true,
             .has_smooth_groups = !split.group.empty(),
             .is_faceted = is_faceted(surface, request),
             .closedness = sides_ == Sides::front ? candela::Closedness::one_sided
@@ -228,6 +253,8 @@ class FileMesh final : public candela::Shape {
         }
         if (layout.has_color)
             write_colors(surface, split.source, request.color_management, layout.vertices, to.color, sink);
+        for (std::size_t i = 0; i < request.channels.size(); ++i)
+            copy(channel_of(surface, request.channels[i]), split.source, layout.vertices, to.channels[i]);
         std::ranges::copy(indices, to.indices.begin());
         if (layout.has_smooth_groups) std::ranges::copy(split.group, to.smooth_group.begin());
         if (layout.has_derivatives && layout.has_uv) {

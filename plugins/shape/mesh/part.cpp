@@ -112,6 +112,11 @@ mesh_io::Surface part_of(const mesh_io::Surface& surface, const TrianglesByMater
     result.tangent = picked(surface.tangent, vertices);
     result.tangent_side = picked(surface.tangent_side, vertices);
     result.color = picked(surface.color, vertices);
+    for (const mesh_io::Attribute& attribute : surface.attributes) {
+        mesh_io::Attribute& to = result.attributes.emplace_back(attribute.name);
+        for (const mesh_io::Array<float>& channel : attribute.channels)
+            to.channels.push_back(picked(channel, vertices));
+    }
     result.u = picked(surface.u, vertices);
     result.v = picked(surface.v, vertices);
     result.facet_normal = picked(surface.facet_normal, kept);

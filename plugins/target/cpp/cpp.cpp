@@ -59,7 +59,7 @@ class CppWriter {
             for (const auto& [name, part] : parts) glue += part;
         }
         std::string kernels = model_kernels();
-        const std::string library = vectors_for(kernels + textures_.declarations);
+        const std::string library = vectors_for(kernels + textures_.declarations + textures_.seen);
         glue += tone_kernel_text() + toned_text();
         kernels = needed_parts(kernel_prelude(), kernels + glue) + "\n" + kernels;
         const bool has_tables = !scene_.tables.empty() || is_spoken_of("Table", without_comments(kernels));
@@ -139,6 +139,7 @@ class CppWriter {
              if_colors("    std::vector<vec3> color;          // per vertex, multiplied by the object's, or "
                        "empty\n")},
             {"TEXTURES", textures_.declarations},
+            {"MESH_CHANNELS", mesh_channels_of(scene_)},
             {"TEXTURE_SEEN", textures_.seen},
             {"TINT_PARAMETER", if_colors(", vec3 tint")},
             {"TIMES_TINT", if_colors(" * tint")},
@@ -448,6 +449,8 @@ class CppTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .second_uv = true,
+                .vertex_channels = true,
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,

@@ -45,6 +45,17 @@ std::string list(float x, float y, float z) {
     return fmt::format("{}, {}, {}", float_text(x), float_text(y), float_text(z));
 }
 
+namespace {
+
+/// The picture of a number or a normal map, and how it continues.
+template <class Reader>
+std::string picture_text(const Reader& reader) {
+    return fmt::format("{{&texture_{}(), {}, {}}}", reader.texture, static_cast<int>(reader.wrap[0]),
+                       static_cast<int>(reader.wrap[1]));
+}
+
+}  // namespace
+
 CppObjects::CppObjects(const ExportedScene& scene) : scene_(scene) {
     for (std::size_t i = 0; i < scene_.objects.size(); ++i) add_object(i);
 }
@@ -66,7 +77,7 @@ void CppObjects::add_object(std::size_t index) {
     const ExportedMesh mesh = scene_.geometry->in_object_space(index);
     const bool is_solid = mesh.is_solid;
     std::optional<GridShape> grid;
-    if (has_function(object.shape, "position") && !mesh.color) grid = grid_of(mesh);
+    if (has_function(object.shape, "position") && !mesh.color && mesh.channels.empty()) grid = grid_of(mesh);
     if (grid) shape_models_.push_back(object.shape);
 
     std::string text = fmt::format("    {{  // {}: {}\n        Object o;\n", ascii_identifier(object.label),
@@ -84,10 +95,10 @@ void CppObjects::add_object(std::size_t index) {
         const auto axis = [&](std::size_t at) {
             return fmt::format("vec2({}, {})", float_text(map.to_uv[at]), float_text(map.to_uv[at + 1]));
         };
-        text += fmt::format("        o.normal_map = {{{{&texture_{}(), {}}}, {{{}, {}}}, {}, {}, {}}};\n",
-                            map.texture, map.repeats, list(map.placing[0], map.placing[1], map.placing[2]),
+        text += fmt::format("        o.normal_map = {{{}, {{{}, {}}}, {}, {}, {}{}}};\n", picture_text(map),
+                            list(map.placing[0], map.placing[1], map.placing[2]),
                             list(map.placing[3], map.placing[4], map.placing[5]), map.has_slopes, axis(0),
-                            axis(2));
+                            axis(2), map.uv == 0 ? "" : ", true");
     }
     if (scene_.shadings.size() > 1)
         text += fmt::format("        o.shading = Shading::{};\n",
@@ -133,11 +144,14 @@ void CppObjects::add_object(std::size_t index) {
     statements_ += text + "        all.push_back(o);\n    }\n";
 }
 
-/// Looks up a number's texel at a TexturePlace.
-std::string CppObjects::texel_text(const ExportedTexturedNumber& n, const char* at) {
-    return fmt::format("texture_at({{&texture_{}(), {}}}, placed({{{}, {}}}, {}))", n.texture, n.repeats,
+/// Looks up a number's texel at a TexturePlace, or the channel of the vertices that it takes.
+std::string CppObjects::texel_text(const ExportedTexturedNumber& n, const std::string& at) {
+    if (n.vertex_channel != ExportedTexturedNumber::k_none)
+        return fmt::format("channel_at({}, {})", at, n.vertex_channel);
+    return fmt::format("texture_at({}, placed({{{}, {}}}, {}))", picture_text(n),
                        list(n.placing[0], n.placing[1], n.placing[2]),
-                       list(n.placing[3], n.placing[4], n.placing[5]), at);
+                       list(n.placing[3], n.placing[4], n.placing[5]),
+                       n.uv == 0 ? at : fmt::format("on_second_uv({})", at));
 }
 
 /// Sets the numbers of an object's material that textures give.
@@ -145,8 +159,7 @@ std::string CppObjects::textured_material(std::size_t number, const ExportedObje
     const ExportedReflection& model = scene_.reflections[object.reflection];
     const auto lookup = [](const ExportedTexturedNumber& n) { return texel_text(n, "at"); };
     const auto [texels, assignments, common] = material_statements(
-        scene_, object, {"        ", "const vec3", "m", "own.color", "own.emission", "own.occlusion"},
-        lookup);
+        scene_, object, {"        ", "const ", "m", "own.color", "own.emission", "own.occlusion"}, lookup);
     std::string material;
     if (!object.textured_numbers.empty())
         material =
@@ -208,6 +221,14 @@ std::size_t CppObjects::mesh_number(const ExportedMesh& mesh) {
         fill +=
             "    for (std::size_t i = 0; i < std::size(uv_pairs); i += 2) m.uv.emplace_back(uv_pairs[i], "
             "uv_pairs[i + 1]);\n";
+    }
+    if (needs_channels(scene_)) {
+        for (std::size_t i = 0; i < mesh.channels.size(); ++i) {
+            const std::span<const float> channel = mesh.channels[i];
+            const std::string name = fmt::format("channel_{}", i);
+            body += number_array("float", name.c_str(), std::vector<float>(channel.begin(), channel.end()));
+            fill += fmt::format("    m.channels.emplace_back(std::begin({0}), std::end({0}));\n", name);
+        }
     }
     if (!mesh.closed) fill += "    m.is_closed = false;\n";
     body += fill + "    return m;\n}\n";

@@ -47,7 +47,7 @@ class CppObjects {
     void add_object(std::size_t index);
     static std::string grid_text(const ExportedObject& object, const GridShape& grid, bool needs_derivatives);
     std::size_t mesh_number(const ExportedMesh& mesh);
-    static std::string texel_text(const ExportedTexturedNumber& number, const char* at);
+    static std::string texel_text(const ExportedTexturedNumber& number, const std::string& at);
     std::string textured_material(std::size_t number, const ExportedObject& object) const;
     void require_default_normals(std::size_t object) const;
 

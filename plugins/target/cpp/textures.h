@@ -7,6 +7,9 @@
 
 namespace candela::cpp_target {
 
+/// The member of a mesh with numbers of its vertices, if textures need them.
+const char* mesh_channels_of(const ExportedScene& scene);
+
 /// Both are empty in a scene without textures.
 struct TextureTexts {
     std::string declarations;  // before objects: a function texture_<number>() for each, and texture lookup

@@ -89,6 +89,11 @@ class Writer {
             !target::all_textured_numbers(object).empty() || object.normal_map != nullptr;
         if (mesh.uv && (has_tangents || is_textured))
             attributes["TEXCOORD_0"] = document_.add_texture_coordinates(mesh.uv, count);
+        if (mesh.second_uv) {
+            attributes["TEXCOORD_1"] = document_.add_texture_coordinates(mesh.second_uv, count);
+            // The sets of a primitive are numbered from 0.
+            if (!attributes.contains("TEXCOORD_0")) attributes["TEXCOORD_0"] = attributes["TEXCOORD_1"];
+        }
         if (mesh.color) attributes["COLOR_0"] = document_.add_vectors(mesh.color, count);
         const std::size_t indices = document_.add_indices(mesh.indices);
         const std::size_t material = materials_.add(object, mesh.closed);
@@ -116,6 +121,7 @@ class GltfTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .second_uv = true,
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,

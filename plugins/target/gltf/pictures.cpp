@@ -116,13 +116,16 @@ std::size_t Pictures::add(std::string_view content, const char* media_type) {
     return document_.add("images", {{"bufferView", view}, {"mimeType", media_type}});
 }
 
-std::size_t Pictures::texture_of(std::size_t image, bool repeats) {
-    const auto [known, is_new] = textures_.try_emplace({image, repeats});
+std::size_t Pictures::texture_of(std::size_t image, const ExportedWrap (&wrap)[2]) {
+    const auto [known, is_new] = textures_.try_emplace({image, wrap[0], wrap[1]});
     if (!is_new) return known->second;
-    constexpr int k_linear = 9729, k_trilinear = 9987, k_clamp = 33071, k_repeat = 10497;
-    const int wrap = repeats ? k_repeat : k_clamp;
-    const std::size_t sampler = document_.add(
-        "samplers", {{"magFilter", k_linear}, {"minFilter", k_trilinear}, {"wrapS", wrap}, {"wrapT", wrap}});
+    constexpr int k_linear = 9729, k_trilinear = 9987;
+    constexpr int k_wraps[] = {10497, 33071, 33648};  // in the order of ExportedWrap
+    const auto number = [&](ExportedWrap which) { return k_wraps[static_cast<std::size_t>(which)]; };
+    const std::size_t sampler = document_.add("samplers", {{"magFilter", k_linear},
+                                                           {"minFilter", k_trilinear},
+                                                           {"wrapS", number(wrap[0])},
+                                                           {"wrapT", number(wrap[1])}});
     return known->second = document_.add("textures", {{"sampler", sampler}, {"source", image}});
 }
 

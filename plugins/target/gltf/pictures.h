@@ -29,7 +29,7 @@ class Pictures {
     std::optional<std::size_t> file_of(std::size_t texture, bool is_encoded);
     std::size_t add(std::string_view content, const char* media_type);
     /// A texture with linear filters.
-    std::size_t texture_of(std::size_t image, bool repeats);
+    std::size_t texture_of(std::size_t image, const ExportedWrap (&wrap)[2]);
 
   private:
     /// Whether a program that reads the 8-bit channels of a texture's file finds the scene's values.
@@ -37,9 +37,10 @@ class Pictures {
 
     const ExportedScene& scene_;
     Document& document_;
-    std::map<std::size_t, std::size_t> files_;                      // images, by the scene's texture
-    std::map<std::pair<std::size_t, bool>, bool> alike_;            // by texture and whether it is encoded
-    std::map<std::pair<std::size_t, bool>, std::size_t> textures_;  // by image and whether it repeats
+    std::map<std::size_t, std::size_t> files_;            // images, by the scene's texture
+    std::map<std::pair<std::size_t, bool>, bool> alike_;  // by texture and whether it is encoded
+    std::map<std::tuple<std::size_t, ExportedWrap, ExportedWrap>, std::size_t>
+        textures_;  // by image and wrap
 };
 
 }  // namespace candela::gltf_target

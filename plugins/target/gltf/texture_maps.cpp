@@ -110,7 +110,7 @@ std::optional<Json> transform_json(const float (&placing)[6]) {
 }
 
 bool is_placed_like(const ExportedTexturedNumber& a, const ExportedTexturedNumber& b) {
-    return a.repeats == b.repeats && std::ranges::equal(a.placing, b.placing);
+    return std::ranges::equal(a.wrap, b.wrap) && a.uv == b.uv && std::ranges::equal(a.placing, b.placing);
 }
 
 /// A level between its texels, as if it had another size.
@@ -214,12 +214,14 @@ void TextureMaps::add(const ExportedObject& object, const Map& map, std::vector<
         set_factor(to, *sources[i].channel, sources.size() == 3 ? 3 : 1, picture->highest[i]);
         if (map.minimum != nullptr) to[map.minimum] = picture->lowest[i];
     }
-    to[map.name] = info_of(picture->image, first->number->repeats, first->number->placing);
+    to[map.name] = info_of(picture->image, *first->number);
 }
 
-Json TextureMaps::info_of(std::size_t image, bool repeats, const float (&placing)[6]) {
-    Json info = {{"index", pictures_.texture_of(image, repeats)}};
-    if (auto transform = transform_json(placing)) {
+template <class Reader>
+Json TextureMaps::info_of(std::size_t image, const Reader& reader) {
+    Json info = {{"index", pictures_.texture_of(image, reader.wrap)}};
+    if (reader.uv != 0) info["texCoord"] = reader.uv;
+    if (auto transform = transform_json(reader.placing)) {
         info["extensions"]["KHR_texture_transform"] = std::move(*transform);
         document_.use_extension("KHR_texture_transform");
     }
@@ -252,7 +254,7 @@ void TextureMaps::add_color(const ExportedObject& object, Json& material) {
     for (std::size_t c = 0; c < 3 && !color.empty(); ++c)
         pbr["baseColorFactor"][c] = picture.highest[c] * pbr["baseColorFactor"][c].get<float>();
     if (!opacity.empty()) pbr["baseColorFactor"][3] = picture.highest[3];
-    pbr["baseColorTexture"] = info_of(picture.image, placed.repeats, placed.placing);
+    pbr["baseColorTexture"] = info_of(picture.image, placed);
 }
 
 void TextureMaps::add_emission(const ExportedObject& object, Json& material) {
@@ -267,7 +269,7 @@ void TextureMaps::add_emission(const ExportedObject& object, Json& material) {
         const Picture picture = file ? *file : baked(k_emission_map, sources);
         for (std::size_t c = 0; c < 3; ++c) factor[c] *= picture.highest[c];
         const ExportedTexturedNumber& placed = object.emission_numbers.front();
-        material["emissiveTexture"] = info_of(picture.image, placed.repeats, placed.placing);
+        material["emissiveTexture"] = info_of(picture.image, placed);
     }
     const float strength = std::max(*std::ranges::max_element(factor), 1.0f);
     material["emissiveFactor"] = {factor[0] / strength, factor[1] / strength, factor[2] / strength};
@@ -291,7 +293,7 @@ void TextureMaps::add_occlusion(const ExportedObject& object, Json& material) {
                              std::abs(number.offset + number.scale - 1) < k_rounding;
     const auto file = is_strength ? pictures_.file_of(number.texture, false) : std::nullopt;
     const std::size_t image = file ? *file : baked(k_occlusion_map, sources).image;
-    material["occlusionTexture"] = info_of(image, number.repeats, number.placing);
+    material["occlusionTexture"] = info_of(image, number);
     if (file && number.scale != 1) material["occlusionTexture"]["strength"] = number.scale;
 }
 
@@ -311,7 +313,7 @@ void TextureMaps::add_normals(const ExportedObject& object, Json& material) {
             if (i % 4 != 3) bytes.push_back(static_cast<std::uint8_t>((level.texels[i] + 128) / 257));
         image = pictures_.add(png_of(level.width, level.height, 3, bytes), "image/png");
     }
-    material["normalTexture"] = info_of(*image, map.repeats, map.placing);
+    material["normalTexture"] = info_of(*image, map);
     if (map.scale != 1) material["normalTexture"]["scale"] = map.scale;
 }
 

@@ -52,7 +52,9 @@ class TextureMaps {
     };
 
     void add(const ExportedObject& object, const Map& map, std::vector<Source> sources, Json& material);
-    Json info_of(std::size_t image, bool repeats, const float (&placing)[6]);
+    /// The reference to a picture, as a number or a normal map reads it.
+    template <class Reader>
+    Json info_of(std::size_t image, const Reader& reader);
     /// Sources that glTF reads from the file of their one picture; nothing if it cannot.
     std::optional<Picture> file_of(const Map& map, const std::vector<Source>& sources);
     Picture baked(const Map& map, const std::vector<Source>& sources);

@@ -42,7 +42,7 @@ constexpr const char* k_members =
     "    int common_material;                                 // with another reflection model\n"
     "    int normal_map;                                      // in k_normal_maps; -1: none\n"
     "    int opacity_map;                                     // in k_opacities; -1: none\n"
-    "    std::vector<std::pair<std::size_t, bool>> pictures;  // of these, and whether they repeat\n";
+    "    std::vector<Picture> pictures;                       // that these read\n";
 
 constexpr const char* k_bind =
     "            set_pixel(program, observer, view, height);\n"
@@ -50,8 +50,8 @@ constexpr const char* k_bind =
     "object.common_material) >= 0 || object.normal_map >= 0 || object.opacity_map >= 0;\n"
     "            // Even a sampler that is not read must refer to a texture of its type.\n"
     "            for (std::size_t k = 0; k < {} && reads_pictures; ++k) {{\n"
-    "                const auto [texture, repeats] = object.pictures[k < object.pictures.size() ? k : 0];\n"
-    "                bind(textures_[texture], repeats, program, k);\n"
+    "                const Picture& picture = object.pictures[k < object.pictures.size() ? k : 0];\n"
+    "                bind(textures_[picture.texture], picture, program, k);\n"
     "            }}\n";
 
 std::string declarations_of(const ExportedScene& scene) {
@@ -119,8 +119,8 @@ std::string texture_members(const ExportedScene& scene, std::size_t index) {
     };
     std::string pictures;
     for (const MaterialPicture& picture : material_pictures(object))
-        pictures +=
-            fmt::format("{}{{{}, {}}}", pictures.empty() ? "" : ", ", picture.texture, picture.repeats);
+        pictures += fmt::format("{}{{{}, {}, {}}}", pictures.empty() ? "" : ", ", picture.texture,
+                                static_cast<int>(picture.wrap_u), static_cast<int>(picture.wrap_v));
     const auto own_texts = std::ranges::count_if(scene.objects, is_textured);
     return fmt::format(", {}, {}, {}, {}, {{{}}}", number(is_textured),
                        has_common_textures(object) ? own_texts + number(has_common_textures) : -1,

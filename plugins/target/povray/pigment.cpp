@@ -62,7 +62,12 @@ Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, c
     if (of.color_numbers.empty() || factor <= 0) return {rgb_text(color), 1};
     files.approximate("textures are seen bilinear, without averaging over a pixel's area");
     const ExportedTexturedNumber& placed = of.color_numbers.front();
-    if (!placed.repeats) files.approximate("textures that are clamped at their edges are repeated");
+    for (const ExportedWrap wrap : placed.wrap) {
+        if (wrap == ExportedWrap::clamp)
+            files.approximate("textures that are clamped at their edges are repeated");
+        if (wrap == ExportedWrap::mirror)
+            files.approximate("textures that are mirrored at their edges are repeated as they are");
+    }
     const std::string name = fmt::format("texture_{}{}.ppm", object, suffix);
     const ExportedTextureLevel& picture = scene.textures[placed.texture].levels.front();
     target::write(files, name.c_str(),

@@ -170,11 +170,12 @@ class Writer {
         return json;
     }
 
-    /// The pictures that a material or a normal map reads, each with whether it repeats.
+    /// The pictures that a material or a normal map reads, each with how it continues beyond its edges.
     static Json pictures_json(const ExportedObject& object) {
         Json pictures = Json::array();
         for (const MaterialPicture& picture : material_pictures(object))
-            pictures.push_back({picture.texture, picture.repeats});
+            pictures.push_back(
+                {picture.texture, static_cast<int>(picture.wrap_u), static_cast<int>(picture.wrap_v)});
         return pictures;
     }
 

@@ -190,11 +190,12 @@ Json mesh_json(const ExportedScene& scene, const ExportedMesh& mesh, PageArrays&
             {"color", put(mesh.color)}};
 }
 
-/// The pictures that a material or a normal map reads, each with whether it repeats.
+/// The pictures that a material or a normal map reads, each with how it continues beyond its edges.
 Json pictures_json(const ExportedObject& object) {
     Json pictures = Json::array();
     for (const MaterialPicture& picture : material_pictures(object))
-        pictures.push_back({picture.texture, picture.repeats});
+        pictures.push_back(
+            {picture.texture, static_cast<int>(picture.wrap_u), static_cast<int>(picture.wrap_v)});
     return pictures;
 }
 

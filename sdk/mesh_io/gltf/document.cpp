@@ -94,10 +94,11 @@ int Document::add_accessor(Array<char> content, int component_type, int type, st
     return static_cast<int>(model.accessors.size() - 1);
 }
 
-Document read_document(std::string_view bytes, const std::filesystem::path& folder, FileScope reach) {
+Document read_document(std::string_view bytes, const std::filesystem::path& folder, FileScope reach,
+                       Attributes attributes) {
     const auto part = [&](std::size_t begin, std::size_t count) { return bytes.substr(begin, count); };
     const Chunks chunks = chunks_of(bytes.size(), part);
-    Geometry geometry = geometry_of(part(chunks.json.begin, chunks.json.size), chunks.has_binary);
+    Geometry geometry = geometry_of(part(chunks.json.begin, chunks.json.size), chunks.has_binary, attributes);
     const std::string_view binary = part(chunks.binary.begin, chunks.binary.size);
 
     tinygltf::TinyGLTF loader;

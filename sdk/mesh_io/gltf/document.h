@@ -61,6 +61,7 @@ struct Document {
 
 /// Reads buffers outside the file from `folder`, and from elsewhere if `reach` allows; decompresses
 /// compressed data. The document refers to `bytes`. Throws BadFile.
-Document read_document(std::string_view bytes, const std::filesystem::path& folder, FileScope reach);
+Document read_document(std::string_view bytes, const std::filesystem::path& folder, FileScope reach,
+                       Attributes attributes);
 
 }  // namespace mesh_io::gltf

@@ -22,7 +22,8 @@ namespace {
 
 class Reader {
   public:
-    Reader(Document document, const Origin& origin) : document_(std::move(document)), origin_(origin) {}
+    Reader(Document document, const Origin& origin, Attributes attributes)
+        : document_(std::move(document)), origin_(origin), attributes_(attributes) {}
 
     Surface read() {
         const std::vector<Placed> all = placed_primitives(document_);
@@ -38,7 +39,8 @@ class Reader {
         surface_.losses = std::move(document_.losses);
         surface_.files = std::move(document_.files);
         surface_.is_color_linear = true;
-        if (has_opacity_) surface_.losses.emplace_back("the opacity of vertices");
+        if (has_opacity_ && attributes_ == Attributes::skipped)
+            surface_.losses.emplace_back("the opacity of vertices");
         const auto note = [&](std::size_t count, const char* what, const char* then,
                               const char* problem = "not finite") {
             if (count > 0)
@@ -49,6 +51,7 @@ class Reader {
         note(bad_normals_, "normal", "computed from the triangles instead");
         note(bad_tangents_, "tangent", "computed from the triangles instead", "unusable");
         note(bad_uv_, "texture coordinate", "0 instead");
+        note(bad_numbers_, "number of a vertex attribute", "0 instead");
         return std::move(surface_);
     }
 
@@ -111,6 +114,53 @@ class Reader {
                         });
         has_uv_ = any_uv;
         has_color_ = any_color;
+        if (attributes_ == Attributes::read)
+            for (const Placed& one : placed) name_attributes(one.primitive->attributes);
+    }
+
+    /// A name that a scene knows, and how many numbers it has: 0 for what is read elsewhere.
+    std::pair<std::string, std::size_t> attribute_of(const std::string& name, int index) const {
+        const auto count = static_cast<std::size_t>(Accessor::components_of(document_, index));
+        if (name == k_second_uv) return {"uv1", 2};
+        if (name == "COLOR_0") return {"color", count == 4 ? 4 : 3};
+        return {name, name.starts_with('_') && count <= 4 ? count : 0};
+    }
+
+    void name_attributes(const std::map<std::string, int>& attributes) {
+        for (const auto& [name, index] : attributes) {
+            const auto [known_as, count] = attribute_of(name, index);
+            if (count == 0) continue;
+            const auto same = std::ranges::find(surface_.attributes, known_as, &Attribute::name);
+            Attribute& to =
+                same != surface_.attributes.end() ? *same : surface_.attributes.emplace_back(known_as);
+            to.channels.resize(std::max(to.channels.size(), count));
+        }
+    }
+
+    /// Primitives without an attribute have zeros, and ones as their colours.
+    void add_attributes(const std::map<std::string, int>& attributes, std::size_t count) {
+        const std::size_t all = surface_.position.size();
+        for (const auto& [name, index] : attributes) {
+            const auto [known_as, numbers] = attribute_of(name, index);
+            if (numbers == 0) continue;
+            Attribute& to = *std::ranges::find(surface_.attributes, known_as, &Attribute::name);
+            const Accessor values = accessor(index, static_cast<int>(numbers));
+            require_as_many(values, count, fmt::format("values of '{}'", name));
+            for (std::size_t c = 0; c < numbers; ++c)
+                for (const double value : values.read(static_cast<int>(c)))
+                    to.channels[c].push_back(
+                        finite(known_as == "uv1" && c == 1 ? 1 - value : value, bad_numbers_));
+        }
+        for (Attribute& attribute : surface_.attributes)
+            for (Array<float>& channel : attribute.channels)
+                channel.resize(all, attribute.name == "color" ? 1.0f : 0.0f);
+    }
+
+    static float finite(double value, std::size_t& bad) {
+        const auto single = static_cast<float>(value);
+        if (std::isfinite(single)) return single;
+        ++bad;
+        return 0.0f;
     }
 
     void add(const Placed& placed) {
@@ -142,6 +192,7 @@ class Reader {
         if (has_tangents_) add_tangents(attributes, pose, count, is_mirrored);
         if (has_uv_) add_uv(attributes, count);
         if (has_color_) add_colors(attributes, count);
+        if (attributes_ == Attributes::read) add_attributes(attributes, count);
         add_triangles(placed, first, count, is_mirrored);
     }
 
@@ -233,14 +284,8 @@ class Reader {
         if (attributes.contains("TEXCOORD_0")) {
             const Accessor uv = accessor(attributes.at("TEXCOORD_0"), 2);
             require_as_many(uv, count, "texture coordinates");
-            const auto finite = [&](double value) {
-                const auto single = static_cast<float>(value);
-                if (std::isfinite(single)) return single;
-                ++bad_uv_;
-                return 0.0f;
-            };
-            for (const double u : uv.read(0)) surface_.u.push_back(finite(u));
-            for (const double v : uv.read(1)) surface_.v.push_back(finite(1 - v));
+            for (const double u : uv.read(0)) surface_.u.push_back(finite(u, bad_uv_));
+            for (const double v : uv.read(1)) surface_.v.push_back(finite(1 - v, bad_uv_));
         }
         while (surface_.u.size() < all) {
             surface_.u.push_back(0);
@@ -332,6 +377,7 @@ class Reader {
 
     Document document_;
     const Origin& origin_;
+    Attributes attributes_;
     Surface surface_;
     std::vector<Affine> nodes_;                 // where there are skins
     std::optional<std::uint32_t> no_material_;  // its number, for primitives without a material
@@ -340,7 +386,7 @@ class Reader {
     bool has_uv_ = false;
     bool has_color_ = false;
     bool has_opacity_ = false;
-    std::size_t bad_normals_ = 0, bad_tangents_ = 0, bad_uv_ = 0;
+    std::size_t bad_normals_ = 0, bad_tangents_ = 0, bad_uv_ = 0, bad_numbers_ = 0;
 };
 
 }  // namespace
@@ -348,8 +394,10 @@ class Reader {
 }  // namespace gltf
 
 Surface read_gltf(std::string_view bytes, const Origin& origin, const std::filesystem::path& folder,
-                  FileScope reach) {
-    return gltf::Reader(gltf::read_document(without_mark(bytes), folder, reach), origin).read();
+                  FileScope reach, Attributes attributes) {
+    return gltf::Reader(gltf::read_document(without_mark(bytes), folder, reach, attributes), origin,
+                        attributes)
+        .read();
 }
 
 }  // namespace mesh_io

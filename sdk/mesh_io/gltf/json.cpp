@@ -42,8 +42,11 @@ const Json* meshopt_of(const Json& view) {
 /// Extracts the members of the file that concern triangles.
 class Geometries {
   public:
-    Geometries(const Json& json, bool has_binary)
-        : json_(json), has_binary_(has_binary), accessors_(array_of(json, "accessors")) {
+    Geometries(const Json& json, bool has_binary, Attributes attributes)
+        : json_(json),
+          has_binary_(has_binary),
+          attributes_(attributes),
+          accessors_(array_of(json, "accessors")) {
         // Without skins and weights, joints and targets have no effect.
         is_skinned_ = !array_of(json, "skins").empty();
         for (const char* const array : {"meshes", "nodes"})
@@ -72,7 +75,7 @@ class Geometries {
         add_buffers();
         for (const Json& material : array_of(json_, "materials"))
             geometry_.materials.push_back(text_of(material, "name"));
-        geometry_.losses = losses_of(json_);
+        geometry_.losses = losses_of(json_, attributes_);
         return std::move(geometry_);
     }
 
@@ -131,10 +134,13 @@ class Geometries {
         Json result = only(from, {"attributes", "indices", "mode", "material"});
         if (!result.is_object() || !result.contains("attributes")) return result;
         Json attributes = Json::object();
+        const Json& all = object_of(from, "attributes");
+        for (const auto& [name, index] : all.items())
+            if (attributes_ == Attributes::read && (name == k_second_uv || name.starts_with('_')))
+                attributes[name] = index;
         for (const char* const name : k_attributes) {
             const bool is_of_skin =
                 std::string_view(name).starts_with("J") || std::string_view(name).starts_with("W");
-            const Json& all = object_of(from, "attributes");
             if (const auto found = all.find(name); found != all.end() && (is_skinned_ || !is_of_skin))
                 attributes[name] = *found;
         }
@@ -238,6 +244,7 @@ class Geometries {
 
     const Json& json_;
     bool has_binary_;
+    Attributes attributes_;
     const Json& accessors_;
     bool is_skinned_ = false, is_morphed_ = false;
     std::set<std::size_t> needed_, needed_views_;  // buffers, views of them
@@ -257,11 +264,11 @@ void require_version_2(const Json& json) {
 
 }  // namespace
 
-Geometry geometry_of(std::string_view text, bool has_binary) {
+Geometry geometry_of(std::string_view text, bool has_binary, Attributes attributes) {
     const Json json = parsed(text);
     require_version_2(json);
     require_known_extensions(json);
-    return Geometries(json, has_binary).read();
+    return Geometries(json, has_binary, attributes).read();
 }
 
 }  // namespace mesh_io::gltf

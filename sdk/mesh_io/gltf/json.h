@@ -60,6 +60,9 @@ struct Geometry {
 
 /// Refuses text that is not JSON, is nested too deeply, or needs an unsupported extension. `has_binary`:
 /// whether the file itself contains the first buffer. Throws BadFile.
-Geometry geometry_of(std::string_view json, bool has_binary);
+Geometry geometry_of(std::string_view json, bool has_binary, Attributes attributes);
+
+/// The second set of texture coordinates.
+inline constexpr const char* k_second_uv = "TEXCOORD_1";
 
 }  // namespace mesh_io::gltf

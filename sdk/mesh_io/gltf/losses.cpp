@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "mesh_io/gltf/json.h"
 #include "mesh_io/text_scanner.h"
 
 namespace mesh_io::gltf {
@@ -47,12 +48,13 @@ void require_known_extensions(const Json& json) {
     }
 }
 
-std::vector<Unsupported> losses_of(const Json& json) {
+std::vector<Unsupported> losses_of(const Json& json, Attributes attributes) {
     std::vector<Unsupported> losses;
     for (const char* const what : {"material", "texture", "image", "camera", "animation"})
         note(losses, array_of(json, (std::string(what) + "s").c_str()).size(), what, true);
     if (const Json* const lights = extension_of(json, "KHR_lights_punctual"))
         note(losses, array_of(*lights, "lights").size(), "light", true);
+    const bool reads_attributes = attributes == Attributes::read;
     std::size_t points = 0, lines = 0;
     bool has_more_colors = false, has_second_uv = false, has_other_attributes = false;
     for (const Json& mesh : array_of(json, "meshes")) {
@@ -64,7 +66,10 @@ std::vector<Unsupported> losses_of(const Json& json) {
                 if (name.starts_with("COLOR_")) {
                     has_more_colors = has_more_colors || name != "COLOR_0";
                 } else if (name.starts_with("TEXCOORD_")) {
-                    has_second_uv = has_second_uv || name != "TEXCOORD_0";
+                    has_second_uv =
+                        has_second_uv || !(name == "TEXCOORD_0" || (reads_attributes && name == k_second_uv));
+                } else if (reads_attributes && name.starts_with('_')) {
+                    continue;
                 } else if (name != "POSITION" && name != "NORMAL" && name != "TANGENT" &&
                            !name.starts_with("JOINTS_") && !name.starts_with("WEIGHTS_")) {
                     has_other_attributes = true;

@@ -11,6 +11,6 @@ namespace mesh_io::gltf {
 /// Throws BadFile if the file needs an unsupported extension.
 void require_known_extensions(const Json& json);
 
-std::vector<Unsupported> losses_of(const Json& json);
+std::vector<Unsupported> losses_of(const Json& json, Attributes attributes);
 
 }  // namespace mesh_io::gltf

@@ -5,8 +5,9 @@ struct ColorTexture {
     int width;
     int height;
     int levels;
-    bool repeats;  // beyond its edges; otherwise the edge colours continue
-    int unit;      // whose texels it has
+    int wrap_u;
+    int wrap_v;
+    int unit;  // whose texels it has
 };
 @UNITS@int color_texture_levels(ColorTexture t) { return t.levels; }
 int color_texture_width(ColorTexture t, int level) { return max(t.width >> level, 1); }

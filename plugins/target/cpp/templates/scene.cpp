@@ -64,6 +64,7 @@ struct Mesh {
     std::vector<int> group;           // empty: each vertex is a group of its own
     std::vector<vec3> authored;       // normals that the shape provides, or empty
     std::vector<vec2> uv;             // or empty
+@MESH_CHANNELS@
     std::vector<vec3> dpdu, dpdv;     // partial derivatives of position, or empty
 @MESH_COLOR@
     bool is_closed = true;            // otherwise it is seen and lit from both sides

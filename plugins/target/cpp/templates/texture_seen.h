@@ -6,17 +6,19 @@ struct TexturePlace {
     vec2 uv1, uv2;      // and how the texture coordinates change along them
     vec3 line;          // of sight
     float pixel = 0;    // its size, metres
+@ON_MESH_MEMBERS@
 };
 
 TexturePlace place_within(const Object& o, int triangle, vec3 b@IS_SEEN_PARAMETER@) {
     const Mesh& m = o.mesh;
     TexturePlace at;
     at.uv = blend(m.uv, m, triangle, b);
+@ON_MESH_WITHIN@
     at.is_pixel = @IS_SEEN@rate_of(o) == Rate::pixel;
     if (!at.is_pixel) return at;
     const int* const v = &m.corners[3 * static_cast<std::size_t>(triangle)];
     const auto p = [&](int k) { return m.position[static_cast<std::size_t>(v[k])]; };
-    const auto uv = [&](int k) { return m.uv[static_cast<std::size_t>(v[k])]; };
+    const auto uv = [&](int k) { return m.uv.empty() ? vec2() : m.uv[static_cast<std::size_t>(v[k])]; };
     at.edge1 = p(1) - p(0);
     at.edge2 = p(2) - p(0);
     at.uv1 = uv(1) - uv(0);
@@ -28,14 +30,10 @@ TexturePlace place_within(const Object& o, int triangle, vec3 b@IS_SEEN_PARAMETE
 
 TexturePlace place_at_vertex(const Object& o, std::size_t v) {
     TexturePlace at;
-    at.uv = o.mesh.uv[v];
+    if (!o.mesh.uv.empty()) at.uv = o.mesh.uv[v];
+@ON_MESH_AT_VERTEX@
     return at;
 }
 
-vec3 texture_at(ColorTexture t, const TexturePlace& at) {
-    const vec2 size(static_cast<float>(color_texture_width(t, 0)), static_cast<float>(color_texture_height(t, 0)));
-    const float level =
-        at.is_pixel ? color_texture_level(at.edge1, at.edge2, at.uv1, at.uv2, at.line, at.pixel * k_right, at.pixel * k_top, size) : 0.0f;
-    return color_texture_at(t, at.uv, level);
-}
-
+@CHANNELS@
+@TEXTURE_AT@

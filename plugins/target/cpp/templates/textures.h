@@ -2,7 +2,7 @@
 @FILE@
 struct ColorTexture {
     const std::vector<TextureLevel>* levels = nullptr;  // null: no texture
-    bool repeats = true;                                // beyond its edges; otherwise the edge colours continue
+    int wrap_u = 0, wrap_v = 0;
 };
 
 int color_texture_levels(ColorTexture t) { return static_cast<int>(t.levels->size()); }

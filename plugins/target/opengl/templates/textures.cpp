@@ -9,6 +9,12 @@ float decoded(float c) {
 const std::vector<const char*> k_textures = {
 @FILES@};
 
+// A picture that an object reads, and its continuation along u and v: as color_texture_wrapped() says.
+struct Picture {
+    std::size_t texture;
+    int wrap_u, wrap_v;
+};
+
 struct Texture {
     GLuint name = 0;
     int width = 0, height = 0, levels = 0;
@@ -44,7 +50,7 @@ Texture make_texture(const std::string& file) {
 }
 
 // Binds a texture as that number of a material, to a unit of its own.
-void bind(const Texture& texture, bool repeats, GLuint program, std::size_t number) {
+void bind(const Texture& texture, const Picture& picture, GLuint program, std::size_t number) {
     const std::string of_number = std::to_string(number), name = "material_texture_" + of_number;
     const int unit = 6 + static_cast<int>(number);
     glActiveTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
@@ -54,7 +60,8 @@ void bind(const Texture& texture, bool repeats, GLuint program, std::size_t numb
     set_whole(name + ".width", texture.width);
     set_whole(name + ".height", texture.height);
     set_whole(name + ".levels", texture.levels);
-    set_whole(name + ".repeats", repeats ? 1 : 0);
+    set_whole(name + ".wrap_u", picture.wrap_u);
+    set_whole(name + ".wrap_v", picture.wrap_v);
     set_whole(name + ".unit", static_cast<int>(number));
 }
 

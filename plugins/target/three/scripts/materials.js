@@ -87,10 +87,10 @@ export class KernelMaterials {
         // Even a sampler that is not read needs a texture of its type.
         const other = this.textures[material_pictures[0][0]].texels;
         for (let i = 0; i < this.mostPictures; ++i) uniforms[`material_texels_${i}`] = other;
-        for (const [i, [picture, repeats]] of material_pictures.entries()) {
+        for (const [i, [picture, wrap_u, wrap_v]] of material_pictures.entries()) {
             const { texels, size } = this.textures[picture];
             uniforms[`material_texels_${i}`] = texels;
-            uniforms[`material_texture_${i}`] = { value: { ...size, repeats, unit: i } };
+            uniforms[`material_texture_${i}`] = { value: { ...size, wrap_u, wrap_v, unit: i } };
         }
         return uniforms;
     }

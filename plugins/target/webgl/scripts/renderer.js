@@ -163,7 +163,7 @@ export class Renderer {
     textureUniforms(index, { material, normalMap }) {
         if (material === null && normalMap === null) return [];
         const pictures = this.scene.objects[index].material_pictures, uniforms = {};
-        pictures.forEach(([picture, repeats], i) => Object.assign(uniforms, this.textures[picture].bind(MATERIAL_UNIT + i, repeats, i)));
+        pictures.forEach(([picture, ...wraps], i) => Object.assign(uniforms, this.textures[picture].bind(MATERIAL_UNIT + i, wraps, i)));
         // Even a sampler that is not read must refer to a texture of its type, and not to the picture that is being drawn.
         for (let i = pictures.length; i < this.mostPictures; ++i) uniforms[`material_texels_${i}`] = { kind: "int", value: MATERIAL_UNIT };
         return Object.entries(uniforms);

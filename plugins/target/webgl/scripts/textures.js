@@ -22,16 +22,16 @@ export class Texture extends DataTexture {
     }
 
     /**
-     * Binds the texture to a unit, as that number of an object's pictures; returns the uniforms with which it is read. `repeats`:
-     * whether it repeats beyond its edges.
+     * Binds the texture to a unit, as that number of an object's pictures; returns the uniforms with which it is read. Along u and
+     * v, it continues beyond its edges as color_texture_wrapped() says.
      */
-    bind(unit, repeats, number) {
+    bind(unit, [wrapU, wrapV], number) {
         const name = `material_texture_${number}`;
         const { levels, picture: { width, height } } = this;
         this.bindTo(unit);
         const wholes = {
             [`material_texels_${number}`]: unit, [`${name}.width`]: width, [`${name}.height`]: height, [`${name}.levels`]: levels,
-            [`${name}.repeats`]: repeats ? 1 : 0, [`${name}.unit`]: number,
+            [`${name}.wrap_u`]: wrapU, [`${name}.wrap_v`]: wrapV, [`${name}.unit`]: number,
         };
         return Object.fromEntries(Object.entries(wholes).map(([name, value]) => [name, { kind: "int", value }]));
     }

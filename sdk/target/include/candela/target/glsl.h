@@ -84,7 +84,8 @@ struct LightBlock {
 /// Shaders of an object with textures read number i of them from `material_texels_<i>` (RGBA16UI, NEAREST):
 /// the picture, and its mip levels in a row along its longer side, each from `longer - (longer >> (level -
 /// 1))` on: below a picture that is at least as wide as high, right of others. `material_texture_<i>` has the
-/// `width` and `height` of the picture, the number of `levels`, whether it `repeats`, and i as its `unit`.
+/// `width` and `height` of the picture, the number of `levels`, how it continues (`wrap_u`, `wrap_v`: an
+/// ExportedWrap each), and i as its `unit`.
 /// Where light is evaluated for each fragment, they also read the positions of the triangle's vertices, as
 /// above; at location 15 how the texture coordinates change from its first vertex to the second and to the
 /// third (u, v, u, v); and how the line of sight moves from pixel to pixel, `pixel_right` and `pixel_up`:
@@ -102,7 +103,7 @@ std::vector<LightBlock> light_blocks(const ExportedScene& scene);
 /// A picture that an object's material or normal map reads.
 struct MaterialPicture {
     std::size_t texture = 0;  // index into ExportedScene::textures
-    bool repeats = true;
+    ExportedWrap wrap_u{}, wrap_v{};
 
     friend bool operator==(const MaterialPicture&, const MaterialPicture&) = default;
 };

@@ -53,6 +53,11 @@ bool has_textured_opacity(const ExportedScene& scene);
 /// The numbers of an object that textures give: of its own material, its colour, emission and occlusion; not
 /// its opacity, which is found elsewhere.
 std::vector<ExportedTexturedNumber> all_textured_numbers(const ExportedObject& object);
+/// Whether a number comes from the mesh's vertices instead of a picture.
+bool is_of_vertices(const ExportedTexturedNumber& number);
+/// Whether it, or a texture placed by the second texture coordinates, needs ExportedMesh::channels.
+bool needs_channels(const ExportedObject& object);
+bool needs_channels(const ExportedScene& scene);
 /// Whether textures give the object's colour, emission or occlusion, which it has with any reflection model.
 bool has_common_textures(const ExportedObject& object);
 
@@ -64,14 +69,14 @@ struct MaterialStatements {
 };
 struct MaterialNames {
     const char* indent;
-    const char* texel_type;  // "const vec3"
-    const char* material;    // the variable
+    const char* qualifier;  // of variables: "const ", or none
+    const char* material;   // the variable
     const char* color;
     const char* emission;
     const char* occlusion;
     bool has_model = true;  // otherwise without the numbers of the material
 };
-/// `lookup` makes the expression for the texel of a number.
+/// `lookup` makes the expression for the texel of a number, a vector, or for its channel of the vertices.
 MaterialStatements material_statements(
     const ExportedScene& scene, const ExportedObject& object, const MaterialNames& names,
     const std::function<std::string(const ExportedTexturedNumber&)>& lookup);
@@ -80,8 +85,8 @@ MaterialStatements material_statements(
 std::string number_text(const ExportedTexturedNumber& number, const std::string& texel);
 
 /// Texture look-ups in the kernel language: the exact footprint, bilinear, trilinear. A program that uses it
-/// must declare, before it, a struct ColorTexture with a member `repeats`, and color_texture_levels(),
-/// _width(), _height() and _texel().
+/// must declare, before it, a struct ColorTexture with members `wrap_u` and `wrap_v`, and
+/// color_texture_levels(), _width(), _height() and _texel().
 std::string_view texture_kernel();
 
 /// Whether a picture tilts the normals of an object.

@@ -1,0 +1,141 @@
+// Numbers of the vertices, and pictures placed by second texture coordinates, in generated programs.
+#include <fmt/format.h>
+
+#include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support/command.h"
+#include "support/expect.h"
+#include "support/gltf_file.h"
+#include "support/text.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A bulging square of 6 x 6 vertices with all that a file of glTF may say of them.
+std::string bulge() {
+    constexpr int k_side = 6;
+    std::vector<float> position, normal, uv, second_uv, wear, color;
+    std::vector<std::uint32_t> indices;
+    const auto add = [](std::vector<float>& to, std::initializer_list<double> numbers) {
+        for (const double number : numbers) to.push_back(static_cast<float>(number));
+    };
+    for (int row = 0; row < k_side; ++row) {
+        for (int column = 0; column < k_side; ++column) {
+            const double s = column / (k_side - 1.0), t = row / (k_side - 1.0), x = s - 0.5, y = t - 0.5;
+            const double length = std::sqrt(1 + x * x + y * y);
+            add(position, {1.1 * x, 1.1 * y, 0.3 - 0.5 * (x * x + y * y)});
+            add(normal, {x / length, y / length, 1 / length});
+            add(uv, {s, 1 - t});
+            add(second_uv, {0.3 + 1.9 * t + 0.2 * s, 1.4 * s - 0.4 * t});
+            add(wear, {0.5 + 0.5 * std::sin(5 * x + 3 * y)});
+            add(color, {1 - 0.3 * s, 0.7 + 0.3 * t, 0.9, 0.3 + 0.6 * s});
+            if (row + 1 == k_side || column + 1 == k_side) continue;
+            const auto corner = static_cast<std::uint32_t>(row * k_side + column);
+            for (const std::uint32_t offset : {0u, 1u, 7u, 0u, 7u, 6u}) indices.push_back(corner + offset);
+        }
+    }
+    GltfFile file(GltfFile::Json::parse(R"({"scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+        "meshes": [{"primitives": [{"attributes": {}}]}]})"));
+    auto& primitive = file.json["meshes"][0]["primitives"][0];
+    primitive["attributes"] = {
+        {"POSITION", file.floats("VEC3", position)}, {"NORMAL", file.floats("VEC3", normal)},
+        {"TEXCOORD_0", file.floats("VEC2", uv)},     {"TEXCOORD_1", file.floats("VEC2", second_uv)},
+        {"_WEAR", file.floats("SCALAR", wear)},      {"COLOR_0", file.floats("VEC4", color)}};
+    primitive["indices"] = file.integers(indices);
+    return file.glb();
+}
+
+/// Values change by a few steps from texel to texel.
+std::string soft_picture() {
+    std::string text = "P6\n16 16\n255\n";
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x)
+            for (const int value :
+                 {90 + 8 * std::abs(x - 8), 200 - 9 * std::abs(y - 8), 110 + 5 * std::abs(x - y)})
+                text += static_cast<char>(value);
+    return text;
+}
+
+/// One for each rate at which light is evaluated.
+std::string objects(const std::string& object, const std::string& material) {
+    std::string text;
+    for (const char* const shading : {"phong", "gouraud", "flat"})
+        text += fmt::format(
+            "[[object]]\nname = \"{0}\"\ntype = \"mesh\"\nfile = \"bulge.glb\"\nposition = [{1}, 0, 0]\n"
+            "rotation = [-20, 25, 0]\nshading = \"{0}\"\nreflection = \"phong\"\n{2}[object.material]\n{3}",
+            shading,
+            shading[0] == 'p'   ? -1.3
+            : shading[0] == 'g' ? 0
+                                : 1.3,
+            object, material);
+    return text;
+}
+
+fs::path scene(const fs::path& folder, const std::string& of) {
+    write_file(folder / "bulge.glb", bulge());
+    write_file(folder / "soft.ppm", soft_picture());
+    return write_file(
+        folder / "scene.toml",
+        "version = 1\n[observer]\nposition = [0, 0.3, 4]\nlook_at = [0, 0, 0]\nfov = 40\n[image]\nwidth = "
+        "180\nheight = 90\n[constraints]\noverlap = \"allow\"\n[[light]]\ntype = \"point\"\nposition = [-2, "
+        "4, "
+        "3]\nintensity = 20\n[[light]]\ntype = \"ambient\"\n" +
+            of);
+}
+
+void verify(const fs::path& scene, const char* target) {
+    const CommandResult result = run_candela({"verify", scene.string(), "--target", target});
+    INFO(target << '\n' << result.out << result.err);
+    CHECK(holds(succeeded(result).out, "match"));
+}
+
+constexpr const char* k_attributes =
+    "kd = { attribute = \"_WEAR\", channel = \"r\", scale = [0.6, 0.5, 0.4], offset = 0.3 }\n"
+    "shininess = { attribute = \"color\", channel = \"a\", scale = 20, offset = 2 }\n"
+    "emission = { attribute = \"color\", scale = 0.1 }\n"
+    "occlusion = { attribute = \"color\", channel = \"g\" }\n";
+
+}  // namespace
+
+TEST_CASE("verify: programs have the numbers of the vertices, with pictures or without") {
+    for (const char* const target : {"cpp"}) {
+        const fs::path folder = scratch_directory();
+        verify(scene(folder, objects("color = [250, 240, 230]\n", k_attributes)), target);
+        verify(scene(folder, objects("color = { texture = \"soft.ppm\" }\n", k_attributes)), target);
+    }
+}
+
+TEST_CASE(
+    "verify: programs place pictures by the second texture coordinates, and continue them in a mirror") {
+    const fs::path folder = scratch_directory();
+    const fs::path placed = scene(
+        folder,
+        objects(
+            "color = { texture = \"soft.ppm\", uv = 1, wrap = \"mirror\", transform = { scale = [1.4, 1.2], "
+            "rotation = 20 } }\nbump_map = { texture = \"soft.ppm\", height = 0.05, uv = 1 }\n",
+            "kd = { texture = \"soft.ppm\", wrap = \"clamp\", wrap_v = \"mirror\", transform = { scale = [2, "
+            "1.7], offset = [-0.4, -0.3] } }\n"
+            "shininess = { texture = \"soft.ppm\", channel = \"b\", uv = 1, wrap_v = \"clamp\", scale = 40, "
+            "offset = 4 }\n"));
+    for (const char* const target : {"cpp"}) verify(placed, target);
+}
+
+TEST_CASE("verify: a C++ program has an opacity that the vertices give") {
+    const fs::path folder = scratch_directory();
+    verify(scene(folder, objects("", "opacity = { attribute = \"color\", channel = \"a\" }\n")), "cpp");
+}
+
+TEST_CASE("generate: programs of scenes without numbers of the vertices do not mention them") {
+    for (const char* const target : {"cpp", "opengl"}) {
+        const fs::path folder = scratch_directory(), program = folder / target;
+        const fs::path plain = scene(folder, objects("color = { texture = \"soft.ppm\" }\n", ""));
+        succeeded(run_candela({"generate", plain.string(), "--target", target, "-o", program.string()}));
+        for (const char* const word : {"channels", "second_uv"})
+            CHECK_FALSE(holds(read_file(program / "scene.cpp"), word));
+    }
+}
