@@ -23,6 +23,8 @@ CANDELA_EMBED(candela_target_triangle_fragment, CANDELA_TARGET_TEMPLATES "/trian
 CANDELA_EMBED(candela_target_texture, CANDELA_TARGET_TEMPLATES "/texture.glsl");
 CANDELA_EMBED(candela_target_texture_vertex, CANDELA_TARGET_TEMPLATES "/texture_vertex.glsl");
 CANDELA_EMBED(candela_target_texture_fragment, CANDELA_TARGET_TEMPLATES "/texture_fragment.glsl");
+CANDELA_EMBED(candela_target_channels_vertex, CANDELA_TARGET_TEMPLATES "/channels_vertex.glsl");
+CANDELA_EMBED(candela_target_channels_fragment, CANDELA_TARGET_TEMPLATES "/channels_fragment.glsl");
 CANDELA_EMBED(candela_target_shadow_fragment, CANDELA_TARGET_TEMPLATES "/shadow_fragment.glsl");
 CANDELA_EMBED(candela_target_layer_uniforms, CANDELA_TARGET_TEMPLATES "/layer_uniforms.glsl");
 CANDELA_EMBED(candela_target_cover, CANDELA_TARGET_TEMPLATES "/cover.glsl");
@@ -148,10 +150,19 @@ struct Feature {
     const char* statement = "";
 };
 
-constexpr const char* k_look_up_at_vertex =
-    "lit_uv = uv;\n#ifdef TEXTURED_MATERIAL\n    find_material();\n#endif";
-constexpr const char* k_look_up_at_fragment =
-    "lit_place = at_place;\n    lit_uv = at_uv;\n#ifdef TEXTURED_MATERIAL\n    find_material();\n#endif";
+/// Sets what textures are looked up by, and finds the numbers that they give.
+std::string look_up_text(const ExportedScene& scene, const char* place, const char* prefix) {
+    std::string text;
+    if (!scene.textures.empty())
+        text += fmt::format("#ifdef READS_PICTURES\n{}    lit_uv = {}uv;\n#endif\n", place, prefix);
+    if (needs_channels(scene))
+        text += fmt::format(
+            "#ifdef READS_CHANNELS\n    lit_channels_0 = {0}channels_0;\n    lit_channels_1 = "
+            "{0}channels_1;\n#endif\n",
+            prefix);
+    if (!text.empty()) text += "#ifdef TEXTURED_MATERIAL\n    find_material();\n#endif\n";
+    return text;
+}
 constexpr const char* k_shading_normal = "    s.normal = facing * shading_normal(point);\n";
 constexpr const char* k_mapped_normal =
     "#if defined(NORMAL_MAPPED) && defined(LIT_AT_FRAGMENT)\n"
@@ -162,10 +173,29 @@ std::string stage_text(const char* text, const std::vector<Feature>& features, V
     std::string declarations;
     for (const Feature& f : features) {
         if (f.is_there) declarations += f.declarations;
+        if (*f.place == '\0') continue;
         values.emplace_back(
-            f.place, f.is_there ? fmt::format("#ifdef {}\n    {}\n#endif\n", f.condition, f.statement) : "");
+            f.place, f.is_there ? fmt::format("#if {}\n    {}\n#endif\n", f.condition, f.statement) : "");
     }
     return declarations + filled(text, views_of(values));
+}
+
+/// Vertices have sixteen attributes.
+void require_room_for_channels(const ExportedScene& scene) {
+    constexpr std::size_t k_most_channels = 8;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        const std::size_t count = scene.geometry->in_world_space(i).channels.size();
+        if (count > k_most_channels)
+            throw std::runtime_error(
+                fmt::format("object {} takes {} numbers from its vertices; shaders have room for {}",
+                            scene.objects[i].label, count, k_most_channels));
+    }
+    for (const ExportedShading& model : scene.shadings)
+        if (model.needs.triangle)
+            throw std::runtime_error(
+                fmt::format("shading model '{}' reads its triangle, which leaves no room for numbers of the "
+                            "vertices in shaders",
+                            model.plugin->name));
 }
 
 bool has_trigonometry(const std::string& code) {
@@ -204,31 +234,38 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
                  if_shadows("    seen_side = facing * point.face_normal;\n    seen_facing = facing;\n")}});
     parts.lights = common_material(scene) + lights_text(scene);
     for (const auto& model : scene.reflections)
-        parts.reflections.push_back(reflection_text(model, scene, is_textured, has_common_textures(scene)));
+        parts.reflections.push_back(
+            reflection_text(model, scene, has_textured_materials(scene), has_common_textures(scene)));
     for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
     const bool needs_triangle = sees_triangles(scene);
-    constexpr const char *k_triangle = "NEEDS_TRIANGLE", *k_texture = "TEXTURED",
-                         *k_material = "READS_PICTURES";
+    const bool has_channels = needs_channels(scene);
+    if (has_channels) require_room_for_channels(scene);
+    constexpr const char *k_triangle = "defined(NEEDS_TRIANGLE)", *k_texture = "defined(TEXTURED)",
+                         *k_channels = "defined(READS_CHANNELS) && defined(LIT_AT_FRAGMENT)";
     parts.vertex =
-        lit + stage_text(
-                  candela_target_vertex,
-                  {{needs_triangle, candela_target_triangle_vertex, "PASS_TRIANGLE", k_triangle,
-                    "pass_triangle();"},
-                   {is_textured, candela_target_texture_vertex, "PASS_TEXTURE", k_texture, "pass_texture();"},
-                   {is_textured, "", "MATERIAL", k_material, k_look_up_at_vertex}},
-                  {{"CORNER", if_shadows("flat out vec3 at_corner;\n")},
-                   {"PASS_CORNER", if_shadows("    at_corner = position;\n")}});
-    parts.fragment = lit + stage_text(candela_target_fragment,
-                                      {{needs_triangle, candela_target_triangle_fragment, "READ_TRIANGLE",
-                                        k_triangle, "read_triangle();"},
-                                       {is_textured, candela_target_texture_fragment, "MATERIAL", k_material,
-                                        k_look_up_at_fragment}},
-                                      {{"DEPTH_UNIFORM", depth.uniform},
-                                       {"DEPTH", depth.statement},
-                                       {"SHADOW_PLACE", if_shadows(candela_target_shadow_fragment)},
-                                       {"LAYER_UNIFORMS", if_layers(candela_target_layer_uniforms)},
-                                       {"COVER", if_layers(candela_target_cover)},
-                                       {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
+        lit +
+        stage_text(
+            candela_target_vertex,
+            {{needs_triangle, candela_target_triangle_vertex, "PASS_TRIANGLE", k_triangle,
+              "pass_triangle();"},
+             {is_textured, candela_target_texture_vertex, "PASS_TEXTURE", k_texture, "pass_texture();"},
+             {has_channels, candela_target_channels_vertex, "PASS_CHANNELS", k_channels, "pass_channels();"}},
+            {{"MATERIAL", look_up_text(scene, "", "")},
+             {"CORNER", if_shadows("flat out vec3 at_corner;\n")},
+             {"PASS_CORNER", if_shadows("    at_corner = position;\n")}});
+    parts.fragment =
+        lit + stage_text(candela_target_fragment,
+                         {{needs_triangle, candela_target_triangle_fragment, "READ_TRIANGLE", k_triangle,
+                           "read_triangle();"},
+                          {is_textured, candela_target_texture_fragment},
+                          {has_channels, candela_target_channels_fragment}},
+                         {{"MATERIAL", look_up_text(scene, "    lit_place = at_place;\n", "at_")},
+                          {"DEPTH_UNIFORM", depth.uniform},
+                          {"DEPTH", depth.statement},
+                          {"SHADOW_PLACE", if_shadows(candela_target_shadow_fragment)},
+                          {"LAYER_UNIFORMS", if_layers(candela_target_layer_uniforms)},
+                          {"COVER", if_layers(candela_target_cover)},
+                          {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
     if (is_textured) {
         const std::string texture = filled(candela_target_texture, {{"UNITS", material_units(scene)}});
         parts.texture = texture + std::string(texture_kernel()) + "\n";

@@ -26,17 +26,40 @@ MaterialPicture picture_of(const Reader& reader) {
 }
 
 /// Looks up a picture of the object.
-template <class Picture>
-std::string texel_text(const ExportedObject& object, const Picture& picture) {
+template <class Reader>
+std::string texel_text(const ExportedObject& object, const Reader& reader) {
     const std::vector<MaterialPicture> pictures = material_pictures(object);
-    const auto slot = std::ranges::find(pictures, picture_of(picture)) - pictures.begin();
-    return fmt::format("material_texel(material_texture_{}, {}, {})", slot, row(picture.placing, 0),
-                       row(picture.placing, 3));
+    const auto slot = std::ranges::find(pictures, picture_of(reader)) - pictures.begin();
+    return fmt::format("{}material_texel(material_texture_{}, {}, {})", reader.uv == 0 ? "" : "second_", slot,
+                       row(reader.placing, 0), row(reader.placing, 3));
 }
 
-constexpr const char* k_reads_pictures =
-    "#ifndef READS_PICTURES\n#define READS_PICTURES\n"
-    "vec3 material_texel(ColorTexture t, vec3 u, vec3 v);\n#endif\n";
+/// Looks up a number's texel, or its channel of the vertices.
+std::string texel_text(const ExportedObject& object, const ExportedTexturedNumber& number) {
+    if (!is_of_vertices(number)) return texel_text<ExportedTexturedNumber>(object, number);
+    return fmt::format("lit_channels_{}.{}", number.vertex_channel / 4, "xyzw"[number.vertex_channel % 4]);
+}
+
+/// Declares what an object's texts read. The declarations of several texts meet in one shader.
+std::string reading_text(const ExportedObject& object) {
+    std::string text;
+    if (needs_channels(object))
+        text +=
+            "#ifndef READS_CHANNELS\n#define READS_CHANNELS\n"
+            "// Numbers of the vertices, where light is evaluated.\n"
+            "vec4 lit_channels_0;\nvec4 lit_channels_1;\n#endif\n";
+    if (!material_pictures(object).empty()) {
+        text +=
+            "#ifndef READS_PICTURES\n#define READS_PICTURES\n"
+            "vec3 material_texel(ColorTexture t, vec3 u, vec3 v);\n";
+        if (needs_channels(object))
+            text +=
+                "// By the second texture coordinates.\n"
+                "vec3 second_material_texel(ColorTexture t, vec3 u, vec3 v);\n";
+        text += "#endif\n";
+    }
+    return text;
+}
 
 constexpr const char* k_number_of =
     "#ifndef HAS_NUMBER_OF\n#define HAS_NUMBER_OF\n"
@@ -56,28 +79,29 @@ std::string text_of(const ExportedScene& scene, const ExportedObject& object, bo
         if (has_emission(scene)) start += "    own_emission = object_emission;\n";
         if (has_occlusion(scene)) start += "    own_occlusion = object_occlusion;\n";
     }
-    return k_reads_pictures + fmt::format(
-                                  "{}// {}: textures give some numbers of its material.\n"
-                                  "void find_material() {{\n{}{}{}{}}}\n",
-                                  k_number_of, ascii_identifier(object.label), start, texels, assignments,
-                                  common);
+    return reading_text(object) + fmt::format(
+                                      "{}// {}: textures give some numbers of its material.\n"
+                                      "void find_material() {{\n{}{}{}{}}}\n",
+                                      k_number_of, ascii_identifier(object.label), start, texels, assignments,
+                                      common);
 }
 
 std::string opacity_text_of(const ExportedObject& object) {
     if (object.opacity_numbers.empty()) return "";
     const ExportedTexturedNumber& number = object.opacity_numbers.front();
-    return k_reads_pictures + fmt::format(
-                                  "{}#define TEXTURED_OPACITY\n"
-                                  "// {}: a texture gives its opacity.\n"
-                                  "float textured_opacity() {{\n    vec3 texel = {};\n    return {};\n}}\n",
-                                  k_number_of, ascii_identifier(object.label), texel_text(object, number),
-                                  number_text(number, "texel"));
+    return reading_text(object) + fmt::format(
+                                      "{}#define TEXTURED_OPACITY\n"
+                                      "// {}: a texture gives its opacity.\n"
+                                      "float textured_opacity() {{\n    {} texel = {};\n    return {};\n}}\n",
+                                      k_number_of, ascii_identifier(object.label),
+                                      is_of_vertices(number) ? "float" : "vec3", texel_text(object, number),
+                                      number_text(number, "texel"));
 }
 
 std::string normal_text_of(const ExportedObject& object) {
     if (object.normal_map == nullptr) return "";
     const ExportedNormalMap& map = *object.normal_map;
-    return k_reads_pictures +
+    return reading_text(object) +
            fmt::format(
                "#define NORMAL_MAPPED\n"
                "// {}: a picture tilts its normals.\n"
@@ -96,8 +120,11 @@ std::vector<MaterialPicture> material_pictures(const ExportedObject& object) {
     const auto add = [&](const MaterialPicture& one) {
         if (std::ranges::find(pictures, one) == pictures.end()) pictures.push_back(one);
     };
-    for (const ExportedTexturedNumber& n : all_textured_numbers(object)) add(picture_of(n));
-    for (const ExportedTexturedNumber& n : object.opacity_numbers) add(picture_of(n));
+    const auto add_number = [&](const ExportedTexturedNumber& number) {
+        if (!is_of_vertices(number)) add(picture_of(number));
+    };
+    std::ranges::for_each(all_textured_numbers(object), add_number);
+    std::ranges::for_each(object.opacity_numbers, add_number);
     if (object.normal_map != nullptr) add(picture_of(*object.normal_map));
     return pictures;
 }

@@ -28,6 +28,12 @@ std::string PageArrays::put(std::span<const std::byte> bytes) {
     return names_.emplace_back(std::move(name));
 }
 
+std::vector<std::string> PageArrays::put(std::span<const std::span<const float>> channels) {
+    std::vector<std::string> names;
+    for (const std::span<const float> channel : channels) names.push_back(put(std::as_bytes(channel)));
+    return names;
+}
+
 std::vector<PageTexture> put_textures(const ExportedScene& scene, PageArrays& arrays) {
     // Browsers can read a page of a hundred megabytes, but not one of several hundred.
     constexpr std::size_t k_most_bytes = std::size_t{96} << 20;

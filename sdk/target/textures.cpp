@@ -157,6 +157,10 @@ bool needs_channels(const ExportedObject& object) {
            (object.normal_map != nullptr && object.normal_map->uv != 0);
 }
 
+bool has_textured_materials(const ExportedScene& scene) {
+    return !scene.textures.empty() || needs_channels(scene);
+}
+
 bool needs_channels(const ExportedScene& scene) {
     return std::ranges::any_of(scene.objects,
                                [](const ExportedObject& object) { return needs_channels(object); });

@@ -6,9 +6,13 @@ export const ATTRIBUTES = ["position", "place", "vertex_normal", "face_normal", 
     "vertex_color"];
 /** The inputs of shading models that read their triangle, equal at its three vertices. */
 export const TRIANGLE_ATTRIBUTES = ["p0", "p1", "p2", "n0", "n1", "n2"];
-/** The inputs of textured objects: how u and v change from a triangle's first vertex to the second and to the third. */
-export const TEXTURE_ATTRIBUTES = ["uv_edges"];
-export const sizeOf = (attribute) => ({ uv: 2, uv_edges: 4 })[attribute] ?? 3;
+/** Numbers of the vertices, in the places of n0, n1, n2. The first two may be second texture coordinates. */
+const CHANNEL_ATTRIBUTES = ["second_uv_edges", "channels_0", "channels_1"];
+/** The location of each of the vertex shader's inputs. "uv_edges": how u and v change from a triangle's first vertex to the second and the third. */
+export const LOCATIONS = Object.fromEntries([
+    ...[...ATTRIBUTES, ...TRIANGLE_ATTRIBUTES].entries(), ...CHANNEL_ATTRIBUTES.map((name, i) => [12 + i, name]), [15, "uv_edges"],
+].map(([location, name]) => [name, location]));
+export const sizeOf = (attribute) => ({ uv: 2, uv_edges: 4, second_uv_edges: 4, channels_0: 4, channels_1: 4 })[attribute] ?? 3;
 
 function boundsOf(positions) {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -80,6 +84,18 @@ export class VertexArrays {
         this.positions = expandIndexed(positions, this.indices, 3);
     }
 
+    /** The sources of the numbers of the vertices. */
+    channelSources(rate) {
+        const { channels, has_second_uv: hasSecondUv } = this.mesh;
+        if (!channels?.length) return {};
+        const mean = rate === "face" ? " mean" : "";
+        return {
+            channels_0: `channels 0${mean}`,
+            ...(channels.length > 4 ? { channels_1: `channels 1${mean}` } : {}),
+            ...(hasSecondUv && rate === "fragment" ? { second_uv_edges: "second uv edges" } : {}),
+        };
+    }
+
     /** For each attribute the name of its values, or three numbers if it is the same everywhere. */
     sourcesOf({ rate, seesTriangle, isTextured }, normalSet) {
         const { uv, dpdu, dpdv, color } = this.mesh;
@@ -89,7 +105,9 @@ export class VertexArrays {
             [name, `${name[0] === "p" ? "position" : `normals ${normalSet}`} of ${name[1]}`]);
         return {
             ...(seesTriangle ? Object.fromEntries(triangle) : {}),
-            ...(isTextured && rate === "fragment" ? { ...Object.fromEntries(triangle.slice(0, 3)), uv_edges: "uv edges" } : {}),
+            ...(isTextured && rate === "fragment" ? Object.fromEntries(triangle.slice(0, 3)) : {}),
+            ...(isTextured && rate === "fragment" && uv !== null ? { uv_edges: "uv edges" } : {}),
+            ...(isTextured ? this.channelSources(rate) : {}),
             position: "position",
             place: `position${mean}`,
             vertex_normal: normals,
@@ -102,11 +120,19 @@ export class VertexArrays {
         };
     }
 
+    /** `size` numbers of each vertex, from a channel on; 0 for absent channels. */
+    channels(first, size) {
+        const channels = this.mesh.channels.slice(first, first + size).map(floatsOf);
+        return Float32Array.from({ length: size * this.vertexCount }, (_, i) => channels[i % size]?.[this.indices[Math.floor(i / size)]] ?? 0);
+    }
+
     valuesOf(name) {
         if (name.endsWith(" mean")) {
             const base = name.slice(0, -" mean".length);
-            return averagePerTriangle(this.valuesOf(base), base === "uv" ? 2 : 3);
+            return averagePerTriangle(this.valuesOf(base), base === "uv" ? 2 : base.startsWith("channels ") ? 4 : 3);
         }
+        if (name.startsWith("channels ")) return this.channels(4 * Number(name.at(-1)), 4);
+        if (name === "second uv edges") return edgesPerTriangle(this.channels(0, 2));
         if (/ of [012]$/.test(name)) return repeatCorner(this.valuesOf(name.slice(0, -" of 0".length)), Number(name.at(-1)));
         if (name === "uv edges") return edgesPerTriangle(this.valuesOf("uv"));
         if (name === "position") return this.positions;

@@ -210,6 +210,20 @@ TEST_CASE("maps have the set of texture coordinates that the file says, each of 
     }
 }
 
+TEST_CASE("texture coordinates and wraps come back as they went in") {
+    GltfSquare file;
+    file.primitive()["attributes"]["TEXCOORD_1"] = file.floats("VEC2", {0.5, 1, 0.5, 0.5, 0, 0.5, 0, 1});
+    file.pbr()["baseColorTexture"] = file.texture(Picture().file());
+    file.pbr()["baseColorTexture"]["texCoord"] = 1;
+    file.json["samplers"] = {{{"wrapS", k_mirror}, {"wrapT", k_clamp}}};
+    file.json["textures"][0]["sampler"] = 0;
+    const Imported imported = import(file);
+    CHECK(holds(imported.scene, "wrap = \"mirror\", wrap_v = \"clamp\", uv = 1 }"));
+    succeeded(imported.folder.run("generate a.toml --target gltf -o made --approximate --quiet"));
+    succeeded(imported.folder.run("import made/scene.glb -o again.toml"));
+    CHECK(holds(imported.folder.read("again.toml"), "wrap = \"mirror\", wrap_v = \"clamp\", uv = 1 }"));
+}
+
 TEST_CASE("a map of the base colour is placed by its transform, and multiplied by the factor") {
     const Picture picture;
     const std::array<double, 4> factor{0.9, 0.7, 0.5, 1};

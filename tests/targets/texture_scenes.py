@@ -1,8 +1,7 @@
-"""Scenes that together show a texture with every reflection model, evaluated per pixel, at vertices and for faces; repeated and clamped;
+"""Scenes that together show a texture with every reflection model, evaluated per pixel, at vertices and for faces; repeated, clamped and mirrored;
 magnified, and on a floor that recedes until a pixel covers tens of texels; alone and on vertex colours; with normals from pictures of
 normals and of heights."""
 
-import json
 import random
 import struct
 
@@ -84,6 +83,8 @@ NORMALS = [
     'bump_map = { texture = "deep.ppm", height = 0.1, wrap = "clamp" }\n',
 ]
 
+WRAPS = ['wrap = "repeat"', 'wrap = "clamp"', 'wrap = "mirror"', 'wrap = "clamp", wrap_v = "mirror"', 'wrap = "mirror", wrap_v = "repeat"']
+
 PLACED = ['encoding = "auto"', "transform = { rotation = 25 }", "transform = { scale = [1.5, 0.8], offset = [0.1, 0.3] }"]
 
 SHAPES = [
@@ -112,5 +113,5 @@ def scene_text(reflections, number):
             picture = ["fine", "odd", "deep"][(row + column) % 3]
             text += (f'[[object]]\nposition = [{1.3 * (column - 1):.2f}, {1.35 - 1.05 * row:.2f}, {-0.4 * (row == 0):.2f}]\nshading = "{shading}"\n'
                      f'reflection = "{reflection}"\ncolor = {{ texture = "{picture}.ppm", scale = [{0.8 - 0.14 * row:.2f}, 0.87, {0.58 + 0.1 * column:.2f}], '
-                     f'wrap = {json.dumps(["repeat", "clamp"][(place // 2) % 2])}, {PLACED[place % len(PLACED)]} }}\n' + NORMALS[(number + row) % len(NORMALS)] + SHAPES[place % len(SHAPES)])
+                     f'{WRAPS[(place // 2) % len(WRAPS)]}, {PLACED[place % len(PLACED)]} }}\n' + NORMALS[(number + row) % len(NORMALS)] + SHAPES[place % len(SHAPES)])
     return text

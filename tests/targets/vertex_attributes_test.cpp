@@ -102,12 +102,10 @@ constexpr const char* k_attributes =
 
 }  // namespace
 
-TEST_CASE("verify: programs have the numbers of the vertices, with pictures or without") {
-    for (const char* const target : {"cpp"}) {
-        const fs::path folder = scratch_directory();
-        verify(scene(folder, objects("color = [250, 240, 230]\n", k_attributes)), target);
-        verify(scene(folder, objects("color = { texture = \"soft.ppm\" }\n", k_attributes)), target);
-    }
+TEST_CASE("verify: programs have the numbers of the vertices") {
+    const fs::path folder = scratch_directory();
+    const fs::path worn = scene(folder, objects("color = [250, 240, 230]\n", k_attributes));
+    for (const char* const target : {"cpp", "opengl", "webgl", "three"}) verify(worn, target);
 }
 
 TEST_CASE(
@@ -121,8 +119,13 @@ TEST_CASE(
             "kd = { texture = \"soft.ppm\", wrap = \"clamp\", wrap_v = \"mirror\", transform = { scale = [2, "
             "1.7], offset = [-0.4, -0.3] } }\n"
             "shininess = { texture = \"soft.ppm\", channel = \"b\", uv = 1, wrap_v = \"clamp\", scale = 40, "
-            "offset = 4 }\n"));
-    for (const char* const target : {"cpp"}) verify(placed, target);
+            "offset = 4 }\nocclusion = { attribute = \"color\", channel = \"g\" }\n") +
+            // Without a picture, next to those.
+            "[[object]]\ntype = \"mesh\"\nfile = \"bulge.glb\"\nposition = [0, -1.1, 0.3]\nshading = "
+            "\"phong\"\n"
+            "reflection = \"phong\"\n[object.material]\n" +
+            k_attributes);
+    for (const char* const target : {"cpp", "opengl", "webgl", "three"}) verify(placed, target);
 }
 
 TEST_CASE("verify: a C++ program has an opacity that the vertices give") {

@@ -84,7 +84,9 @@ class OpenGlWriter {
                            : sees_triangles(scene_) ? "15"
                                                     : "9"},
             {"TRIANGLE_COMMENT", if_triangles(", and the triangle's vertices and normals")},
-            {"TRIANGLE_SIZES", is_textured() ? ", 3, 3, 3, 3, 3, 3, 4" : if_triangles(", 3, 3, 3, 3, 3, 3")},
+            {"TRIANGLE_SIZES", needs_channels(scene_) ? ", 3, 3, 3, 4, 4, 4, 4"
+                               : is_textured()        ? ", 3, 3, 3, 3, 3, 3, 4"
+                                                      : if_triangles(", 3, 3, 3, 3, 3, 3")},
             {"PUT_TRIANGLE", if_triangles(k_put_triangle)},
             {"OBJECTS", objects},
             {"COMMON_MEMBERS", common_members()},
@@ -101,6 +103,11 @@ class OpenGlWriter {
             values.insert(values.end(), more.begin(), more.end());
         write(files, "scene.cpp", filled(candela_opengl_scene, views_of(values)));
         values.emplace_back("ARRAYS", arrays_);
+        values.emplace_back("CHANNELS",
+                            needs_channels(scene_)
+                                ? "    std::size_t channel_count;\n    const float* const* channels;  "
+                                  "// further numbers, an array each\n"
+                                : "");
         write(files, "meshes.h", filled(candela_opengl_meshes, views_of(values)));
         write(files, "CMakeLists.txt", candela_opengl_cmake);
         write(files, "README.md", filled(candela_opengl_readme, views_of(values)));
@@ -128,7 +135,7 @@ class OpenGlWriter {
                    "GL_FLOAT, radiance_texels().data());\n}}\n\n",
                    k_radiance_width);
     }
-    bool is_textured() const { return !scene_.textures.empty(); }
+    bool is_textured() const { return has_textured_materials(scene_); }
 
     template <class Model, class RateOf>
     static std::string models(std::span<const Model> all, const std::vector<std::string>& glsl,
@@ -323,14 +330,28 @@ class OpenGlWriter {
         const char* const dpdv =
             optional("dpdv", needs_derivatives ? interleaved(mesh.dpdv, count) : std::vector<float>());
         const char* const color = optional("color", interleaved(mesh.color, count));
+        const std::string channels = needs_channels(scene_) ? add_channels(mesh, body) : "";
         arrays_ += fmt::format(
             "\n// {}\ninline MeshArrays object_{}() {{\n{}    static const float* const normals[] = {{{}}};\n"
             "    static const std::size_t normals_of[] = {{{}}};\n    return {{{}, {}, corners, position, "
             "normals, normals_of, {}, {}, "
-            "{}, {}}};\n}}\n",
+            "{}, {}{}}};\n}}\n",
             ascii_identifier(scene_.objects[index].label), index, body, fmt::join(sets, ", "),
-            fmt::join(mesh.normals_of, ", "), count, mesh.triangle_count(), uv, dpdu, dpdv, color);
+            fmt::join(mesh.normals_of, ", "), count, mesh.triangle_count(), uv, dpdu, dpdv, color, channels);
         return {mesh.closed, mesh.is_solid};
+    }
+
+    /// Adds the numbers of the vertices to `body`; returns what the arrays' members are set to.
+    static std::string add_channels(const ExportedMesh& mesh, std::string& body) {
+        if (mesh.channels.empty()) return ", 0, nullptr";
+        std::vector<std::string> names;
+        for (const std::span<const float> channel : mesh.channels) {
+            names.push_back(fmt::format("channel_{}", names.size()));
+            body += number_array("float", names.back().c_str(),
+                                 std::vector<float>(channel.begin(), channel.end()));
+        }
+        body += fmt::format("    static const float* const channels[] = {{{}}};\n", fmt::join(names, ", "));
+        return fmt::format(", {}, channels", names.size());
     }
 
     const ExportedScene& scene_;
@@ -347,6 +368,8 @@ class OpenGlTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .second_uv = true,
+                .vertex_channels = true,
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,

@@ -33,6 +33,17 @@ constexpr const char* k_put_edges =
     "                all[15].push_back(uv(v[1 + i / 2]) - uv(v[0]));\n"
     "            }\n";
 
+constexpr const char* k_put_channels =
+    "            for (std::size_t c = 0; c < 8 && mesh.channel_count > 0; ++c) {  // numbers of the "
+    "vertices\n"
+    "                const auto channel = [&](std::size_t number, std::size_t vertex) {\n"
+    "                    return number < mesh.channel_count ? mesh.channels[number][vertex] : 0.0f;\n"
+    "                };\n"
+    "                all[13 + c / 4].push_back(rate == Rate::face ? (channel(c, v[0]) + channel(c, v[1]) + "
+    "channel(c, v[2])) / 3 : channel(c, v[k]));\n"
+    "                if (c < 4) all[12].push_back(channel(c % 2, v[1 + c / 2]) - channel(c % 2, v[0]));\n"
+    "            }\n";
+
 constexpr const char* k_load =
     "        glActiveTexture(GL_TEXTURE6);\n"
     "        for (const char* const file : k_textures) textures_.push_back(make_texture(file));\n";
@@ -41,7 +52,12 @@ constexpr const char* k_members =
     "    int material;                                        // in k_materials; -1: no textures\n"
     "    int common_material;                                 // with another reflection model\n"
     "    int normal_map;                                      // in k_normal_maps; -1: none\n"
-    "    int opacity_map;                                     // in k_opacities; -1: none\n"
+    "    int opacity_map;                                     // in k_opacities; -1: none\n";
+constexpr const char* k_picture =
+    "// A picture that an object reads, and its continuation along u and v: as color_texture_wrapped() "
+    "says.\n"
+    "struct Picture {\n    std::size_t texture;\n    int wrap_u, wrap_v;\n};\n";
+constexpr const char* k_pictures_member =
     "    std::vector<Picture> pictures;                       // that these read\n";
 
 constexpr const char* k_bind =
@@ -50,7 +66,8 @@ constexpr const char* k_bind =
     "object.common_material) >= 0 || object.normal_map >= 0 || object.opacity_map >= 0;\n"
     "            // Even a sampler that is not read must refer to a texture of its type.\n"
     "            for (std::size_t k = 0; k < {} && reads_pictures; ++k) {{\n"
-    "                const Picture& picture = object.pictures[k < object.pictures.size() ? k : 0];\n"
+    "                const Picture picture = k < object.pictures.size() ? object.pictures[k] : Picture{{0, "
+    "0, 0}};\n"
     "                bind(textures_[picture.texture], picture, program, k);\n"
     "            }}\n";
 
@@ -74,7 +91,8 @@ std::string texts_of(const char* name, std::initializer_list<const std::vector<s
 }  // namespace
 
 Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
-    const bool has_textures = !scene.textures.empty();
+    const bool has_textures = has_textured_materials(scene), has_pictures = !scene.textures.empty();
+    const auto if_pictures = [&](std::string text) { return has_pictures ? std::move(text) : std::string(); };
     const auto if_textures = [&](std::string text) { return has_textures ? std::move(text) : std::string(); };
     const std::string corners = sees_triangles(scene) ? "" : k_put_corners;
     return {
@@ -82,13 +100,15 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
                                        texts_of("k_materials", {&glsl.materials, &glsl.common_materials}) +
                                        texts_of("k_normal_maps", {&glsl.normal_maps}) +
                                        texts_of("k_opacities", {&glsl.opacities}))},
-        {"TEXTURE_MEMBERS", if_textures(k_members)},
-        {"TEXTURES", has_textures ? declarations_of(scene) : ""},
-        {"PUT_TEXTURE", if_textures(corners + k_put_edges)},
+        {"PICTURE", if_pictures(k_picture)},
+        {"TEXTURE_MEMBERS", if_textures(k_members) + if_pictures(k_pictures_member)},
+        {"TEXTURES", has_pictures ? declarations_of(scene) : ""},
+        {"PUT_TEXTURE", if_pictures(corners + k_put_edges)},
         {"SKIP_ABSENT", if_textures("        if (all[i].empty()) continue;\n")},
-        {"FIND_TEXTURES", if_textures("        look_for_textures_at(argv[0]);\n")},
-        {"LOAD_TEXTURES", if_textures(k_load)},
-        {"BIND_TEXTURE", if_textures(fmt::format(k_bind, most_material_pictures(scene)))},
+        {"FIND_TEXTURES", if_pictures("        look_for_textures_at(argv[0]);\n")},
+        {"LOAD_TEXTURES", if_pictures(k_load)},
+        {"PUT_CHANNELS", needs_channels(scene) ? k_put_channels : ""},
+        {"BIND_TEXTURE", scene.textures.empty() ? "" : fmt::format(k_bind, most_material_pictures(scene))},
         {"MATERIAL_OF",
          if_textures("        const int material = reflection == object.reflection ? object.material : "
                      "object.common_material;\n")},
@@ -105,11 +125,11 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
                      "                                   (object.opacity_map < 0 ? \"\" : "
                      "k_opacities[static_cast<std::size_t>(object.opacity_map)])")},
         {"TEXTURED_KEY", if_textures(", int, int, int")},
-        {"TEXTURES_HELD", if_textures("    std::vector<Texture> textures_;\n")}};
+        {"TEXTURES_HELD", if_pictures("    std::vector<Texture> textures_;\n")}};
 }
 
 std::string texture_members(const ExportedScene& scene, std::size_t index) {
-    if (scene.textures.empty()) return "";
+    if (!has_textured_materials(scene)) return "";
     const ExportedObject& object = scene.objects[index];
     const auto is_textured = [](const ExportedObject& o) { return !all_textured_numbers(o).empty(); };
     const auto is_mapped = [](const ExportedObject& o) { return o.normal_map != nullptr; };
@@ -122,9 +142,10 @@ std::string texture_members(const ExportedScene& scene, std::size_t index) {
         pictures += fmt::format("{}{{{}, {}, {}}}", pictures.empty() ? "" : ", ", picture.texture,
                                 static_cast<int>(picture.wrap_u), static_cast<int>(picture.wrap_v));
     const auto own_texts = std::ranges::count_if(scene.objects, is_textured);
-    return fmt::format(", {}, {}, {}, {}, {{{}}}", number(is_textured),
+    return fmt::format(", {}, {}, {}, {}{}", number(is_textured),
                        has_common_textures(object) ? own_texts + number(has_common_textures) : -1,
-                       number(is_mapped), number(is_covering), pictures);
+                       number(is_mapped), number(is_covering),
+                       scene.textures.empty() ? "" : fmt::format(", {{{}}}", pictures));
 }
 
 }  // namespace candela::opengl_target

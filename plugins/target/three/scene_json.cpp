@@ -105,7 +105,9 @@ class Writer {
                 {"uv", scene_.needs_uv ? put(mesh.uv) : Json()},
                 {"dpdu", scene_.needs_derivatives ? put(mesh.dpdu) : Json()},
                 {"dpdv", scene_.needs_derivatives ? put(mesh.dpdv) : Json()},
-                {"color", put(mesh.color)}};
+                {"color", put(mesh.color)},
+                {"channels", arrays_.put(mesh.channels)},
+                {"has_second_uv", static_cast<bool>(mesh.second_uv)}};
     }
 
     static Box box_of(const ExportedMesh& mesh) {

@@ -51,6 +51,8 @@ class ThreeTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .second_uv = true,
+                .vertex_channels = true,
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,

@@ -187,7 +187,9 @@ Json mesh_json(const ExportedScene& scene, const ExportedMesh& mesh, PageArrays&
             {"uv", scene.needs_uv ? put(mesh.uv) : Json()},
             {"dpdu", scene.needs_derivatives ? put(mesh.dpdu) : Json()},
             {"dpdv", scene.needs_derivatives ? put(mesh.dpdv) : Json()},
-            {"color", put(mesh.color)}};
+            {"color", put(mesh.color)},
+            {"channels", arrays.put(mesh.channels)},
+            {"has_second_uv", static_cast<bool>(mesh.second_uv)}};
 }
 
 /// The pictures that a material or a normal map reads, each with how it continues beyond its edges.
@@ -396,6 +398,8 @@ class WebGlTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .second_uv = true,
+                .vertex_channels = true,
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,

@@ -40,6 +40,7 @@ void main() {
     at_vertex_color = vertex_color;
 @PASS_CORNER@
 @PASS_TEXTURE@
+@PASS_CHANNELS@
 #else
     vec3 color = vertex_color;
 @MATERIAL@

@@ -14,6 +14,7 @@ struct MeshArrays {
     const float* dpdu;              // partial derivatives of position
     const float* dpdv;
     const float* color;             // red green blue of each vertex, multiplied by the object's colour
+@CHANNELS@
 };
 @ARRAYS@
 @SHADOW_ARRAYS@

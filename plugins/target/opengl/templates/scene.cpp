@@ -73,6 +73,7 @@ struct Uniform {
     std::array<vec3, 2> more_columns{};
 };
 
+@PICTURE@
 struct Object {
     const char* name;
     vec3 color;
@@ -292,6 +293,7 @@ Buffers upload(const MeshArrays& mesh, std::size_t normals, Rate rate) {
             put(8, mesh.color == nullptr ? vec3{1, 1, 1} : at(mesh.color, k));
 @PUT_TRIANGLE@
 @PUT_TEXTURE@
+@PUT_CHANNELS@
             for (std::size_t i = 0; i < 2; ++i) {
                 const auto uv = [&](std::size_t vertex) { return mesh.uv == nullptr ? 0.0f : mesh.uv[2 * vertex + i]; };
                 all[4].push_back(rate == Rate::face ? (uv(v[0]) + uv(v[1]) + uv(v[2])) / 3 : uv(v[k]));

@@ -9,12 +9,6 @@ float decoded(float c) {
 const std::vector<const char*> k_textures = {
 @FILES@};
 
-// A picture that an object reads, and its continuation along u and v: as color_texture_wrapped() says.
-struct Picture {
-    std::size_t texture;
-    int wrap_u, wrap_v;
-};
-
 struct Texture {
     GLuint name = 0;
     int width = 0, height = 0, levels = 0;

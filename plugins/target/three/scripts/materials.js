@@ -85,7 +85,7 @@ export class KernelMaterials {
         const uniforms = {};
         if (!isTextured(object)) return uniforms;
         // Even a sampler that is not read needs a texture of its type.
-        const other = this.textures[material_pictures[0][0]].texels;
+        const other = this.textures[0]?.texels;
         for (let i = 0; i < this.mostPictures; ++i) uniforms[`material_texels_${i}`] = other;
         for (const [i, [picture, wrap_u, wrap_v]] of material_pictures.entries()) {
             const { texels, size } = this.textures[picture];

@@ -1,4 +1,4 @@
-import { ATTRIBUTES, TEXTURE_ATTRIBUTES, TRIANGLE_ATTRIBUTES, VertexArrays, sizeOf } from "../../../../sdk/web/vertex_arrays.js";
+import { ATTRIBUTES, LOCATIONS, VertexArrays, sizeOf } from "../../../../sdk/web/vertex_arrays.js";
 
 /** An object's triangles on the GPU. Buffers are filled when a shading model first asks for them. */
 export class Mesh {
@@ -27,13 +27,12 @@ export class Mesh {
         const { gl } = this;
         const vertexArray = gl.createVertexArray();
         gl.bindVertexArray(vertexArray);
-        [...ATTRIBUTES, ...TRIANGLE_ATTRIBUTES, ...TEXTURE_ATTRIBUTES].forEach((attribute, i) => {
-            if (typeof sources[attribute] !== "string") return;
-            const buffer = this.buffer(sources[attribute]);
-            gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-            gl.enableVertexAttribArray(i);
-            gl.vertexAttribPointer(i, sizeOf(attribute), gl.FLOAT, false, 0, 0);
-        });
+        for (const [attribute, source] of Object.entries(sources)) {
+            if (typeof source !== "string") continue;
+            gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer(source));
+            gl.enableVertexAttribArray(LOCATIONS[attribute]);
+            gl.vertexAttribPointer(LOCATIONS[attribute], sizeOf(attribute), gl.FLOAT, false, 0, 0);
+        }
         this.vertexArrays.set(key, vertexArray);
         return vertexArray;
     }
@@ -41,7 +40,7 @@ export class Mesh {
     /** Whether a scene's mesh is the same as this one for a renderer. */
     isOf(mesh) {
         const areEqual = (a, b) => a === b || (a instanceof Object && JSON.stringify(a) === JSON.stringify(b));
-        return ["vertices", "indices", "position", "uv", "dpdu", "dpdv", "color", "normals", "normals_of"].every((name) => areEqual(this.mesh[name], mesh[name]));
+        return ["vertices", "indices", "position", "uv", "dpdu", "dpdv", "color", "channels", "normals", "normals_of"].every((name) => areEqual(this.mesh[name], mesh[name]));
     }
 
     release() {

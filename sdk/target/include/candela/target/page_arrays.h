@@ -19,6 +19,8 @@ class PageArrays {
   public:
     /// Returns the array's name.
     std::string put(std::span<const std::byte> bytes);
+    /// Returns the names of a mesh's channels.
+    std::vector<std::string> put(std::span<const std::span<const float>> channels);
 
     /// The names of the arrays, each once, in order of insertion.
     const std::vector<std::string>& names() const { return names_; }

@@ -58,6 +58,8 @@ bool is_of_vertices(const ExportedTexturedNumber& number);
 /// Whether it, or a texture placed by the second texture coordinates, needs ExportedMesh::channels.
 bool needs_channels(const ExportedObject& object);
 bool needs_channels(const ExportedScene& scene);
+/// Whether pictures or vertices give any object numbers.
+bool has_textured_materials(const ExportedScene& scene);
 /// Whether textures give the object's colour, emission or occlusion, which it has with any reflection model.
 bool has_common_textures(const ExportedObject& object);
 
