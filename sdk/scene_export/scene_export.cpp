@@ -13,7 +13,9 @@
 #include <utility>
 #include <vector>
 
+#include "scene_export/abilities.h"
 #include "scene_export/export_storage.h"
+#include "scene_export/exported_textures.h"
 
 import candela.api;
 import candela.plugins;
@@ -29,17 +31,6 @@ namespace {
 constexpr const char* k_no_kernel =
     "has no kernel, the text from which its mathematics is generated; programs can be generated only with "
     "models that have one";
-
-std::string name_in(const Label& label) {
-    const std::string name = label.name.empty() ? label.text() : label.name;
-    // Targets write labels into comments and pages: a line break would end them.
-    std::string shown;
-    for (const char c : name) {
-        const auto byte = static_cast<unsigned char>(c);
-        shown += byte < 0x20 || byte == 0x7f ? fmt::format("\\u{{{:x}}}", byte) : std::string(1, c);
-    }
-    return shown;
-}
 
 /// Puts the models of one kind into a list, each once.
 template <class Exported>
@@ -59,7 +50,11 @@ bool has_function(const PluginDescriptor& plugin, std::string_view name) {
 class Exporter {
   public:
     Exporter(ExportStorage& to, const Scene& scene, const ExportRequest& request)
-        : to_(to), registry_(to.registry), scene_(scene), request_(request) {}
+        : to_(to),
+          registry_(to.registry),
+          scene_(scene),
+          request_(request),
+          textures_(to, scene.image.color_management, request.abilities) {}
 
     void run() {
         to_.has_vertex_colors = request_.abilities.vertex_colors;
@@ -339,192 +334,15 @@ class Exporter {
         return kind == PluginKind::shading ? object.shading.parameters : object.reflection.parameters;
     }
 
-    /// The index of a picture that is decoded like that; objects share them.
-    std::size_t texture_of(const std::string& file, ColorEncoding encoding) {
-        const auto [known, is_new] = textures_.try_emplace({file, encoding}, to_.textures.size());
-        if (is_new) add_texture(file, read_texture(file, registry_, encoding).mip_map);
-        return known->second;
-    }
-
-    /// The index of the opacity of a picture.
-    std::size_t opacity_map_of(const std::string& file) {
-        const auto [known, is_new] = opacity_maps_.try_emplace(file, to_.textures.size());
-        if (is_new) {
-            add_texture(file, read_opacity_map(file, registry_).mip_map);
-            to_.textures.back().is_opacity = true;
-        }
-        return known->second;
-    }
-
-    /// The index of a picture of normals or slopes.
-    std::size_t texture_of(const NormalMap& map) {
-        if (!map.has_heights) return texture_of(map.file, ColorEncoding::none);
-        const std::array<TextureWrap, 2> wraps = map.placing.wraps();
-        const auto [known, is_new] = slopes_.try_emplace({map.file, wraps}, to_.textures.size());
-        if (is_new) add_texture(map.file, read_bump_map(map.file, registry_, wraps).mip_map);
-        return known->second;
-    }
-
-    void add_texture(const std::string& file, std::shared_ptr<const MipMap> picture) {
-        const auto& mip_map = to_.mip_maps.emplace_back(std::move(picture));
-        auto& levels = to_.levels.emplace_back();
-        for (const MipMap::Level& level : mip_map->levels()) {
-            const auto texels =
-                static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
-            levels.push_back(
-                {level.width, level.height, mip_map->texels().subspan(4 * level.first, 4 * texels)});
-        }
-        to_.textures.push_back({.file = kept(file), .levels = levels});
-    }
-
-    std::optional<ExportedNormalMap> normal_map_of(const Object& object) {
-        if (!object.normal_map) return std::nullopt;
-        const NormalMap& map = *object.normal_map;
-        if (!request_.abilities.normal_maps)
-            throw Error(ErrorCategory::failure,
-                        fmt::format("object {} has a {}, which this target does not support; remove it",
-                                    object.label.text(), map.has_heights ? "bump_map" : "normal_map"));
-        if (map.placing.uv != 0 && !request_.abilities.second_uv) return std::nullopt;
-        ExportedNormalMap exported{.texture = texture_of(map),
-                                   .uv = map.placing.uv,
-                                   .has_slopes = map.has_heights,
-                                   .scale = map.scale};
-        const MipMap& picture = *to_.mip_maps[exported.texture];
-        MaterialTextures textures;
-        textures.add(map, {}, picture.width(), picture.height());
-        std::ranges::copy(exported_wraps(map.placing), exported.wrap);
-        std::ranges::copy(placing_of(map.placing.transform), exported.placing);
-        std::ranges::copy(textures.normal->to_uv, exported.to_uv);
-        return exported;
-    }
-
-    void require_abilities(const Object& object) const {
-        const CommonMaterial& common = object.common;
-        const auto refuse = [&](const char* what, const char* remedy) {
-            throw Error(ErrorCategory::failure,
-                        fmt::format("object {} {}, which this target does not support; {}",
-                                    object.label.text(), what, remedy));
-        };
-        if (object.color_texture && !request_.abilities.textures)
-            refuse("has a texture", "give 'color' a value");
-        if (!object.textures.empty() && !request_.abilities.textured_numbers)
-            throw Error(ErrorCategory::failure,
-                        fmt::format("'{}' of object {} has a texture, which this target supports only for "
-                                    "colours; give it a value",
-                                    object.textures.front().parameter, object.label.text()));
-        if (common.emits() && !request_.abilities.emission)
-            refuse("emits light", "remove 'emission' from its material");
-        if ((common.occlusion != 1 || common.has_texture("occlusion")) && !request_.abilities.occlusion)
-            refuse("has an occlusion of ambient light", "remove 'occlusion' from its material");
-        if (common.is_see_through() && !request_.abilities.opacity && !request_.leaves_out)
-            refuse("is not opaque", "remove 'opacity' from its material");
-        if (has_second_uv(object) && !request_.abilities.second_uv && !request_.leaves_out)
-            refuse("has a texture placed by its second texture coordinates", "remove 'uv' from the texture");
-        if (has_attributes(object) && !request_.abilities.vertex_channels && !request_.leaves_out)
-            refuse("takes values from an attribute of its vertices", "give them a value or a texture");
-    }
-
-    static bool has_second_uv(const Object& object) {
-        const std::vector<VertexChannel> channels = vertex_channels_of(object);
-        return !channels.empty() && channels.front().attribute == "uv1";
-    }
-    static bool has_attributes(const Object& object) {
-        return std::ranges::any_of(vertex_channels_of(object),
-                                   [](const VertexChannel& channel) { return channel.attribute != "uv1"; });
-    }
-
-    /// Declares what require_abilities() accepted although the target lacks it.
-    void declare_left_out(const Object& object) {
-        const auto declare = [&](bool has, bool is_able, const char* what) {
-            if (has && !is_able)
-                to_.left_out.push_back(
-                    kept(fmt::format("{} of object {} {} left out", what, name_in(object.label),
-                                     std::string_view(what).ends_with('s') ? "are" : "is")));
-        };
-        const TargetAbilities& able = request_.abilities;
-        declare(object.common.is_see_through(), able.opacity, "the opacity");
-        declare(has_second_uv(object), able.second_uv, "textures on the second texture coordinates");
-        declare(has_attributes(object), able.vertex_channels, "values from attributes of the vertices");
-    }
-
-    static bool is_of_vertices(const TexturedNumber& number) {
-        return number.vertex_channel != TexturedNumber::k_none;
-    }
-
-    static std::array<ExportedWrap, 2> exported_wraps(const TexturePlacing& placing) {
-        const auto [u, v] = placing.wraps();
-        return {static_cast<ExportedWrap>(u), static_cast<ExportedWrap>(v)};
-    }
-
-    static ExportedTexturedNumber exported_number(const TexturedNumber& number, const PlacedTexture& placed,
-                                                  std::size_t picture) {
-        ExportedTexturedNumber result{.parameter = number.parameter,
-                                      .channel = number.channel,
-                                      .texture = picture,
-                                      .texel_channel = number.texel_channel,
-                                      .vertex_channel = number.vertex_channel,
-                                      .uv = placed.placing.uv,
-                                      .scale = number.scale,
-                                      .offset = number.offset,
-                                      .minimum = number.minimum,
-                                      .maximum = number.maximum};
-        std::ranges::copy(exported_wraps(placed.placing), result.wrap);
-        std::ranges::copy(placing_of(placed.placing.transform), result.placing);
-        return result;
-    }
-
-    /// The numbers of an object that come from pictures: of its own material, emission, occlusion and colour.
-    void add_textured_numbers(const Object& object, ExportStorage::Object& to) {
-        if (object.textures.empty() && object.common.textures.empty() && !object.color_texture) return;
-        std::map<std::string, std::size_t> pictures;  // by the key of a placed one: index of to_.textures
-        const auto place = [&](const ParameterTexture& texture,
-                               const Parameter& parameter) -> std::optional<PlacedTexture> {
-            const bool is_opacity = &parameter == &material_parameter("opacity");
-            if (is_opacity && !request_.abilities.opacity) return std::nullopt;
-            if (texture.placing.uv != 0 && !request_.abilities.second_uv) return std::nullopt;
-            const std::size_t picture =
-                texture.channel == TextureChannel::alpha
-                    ? opacity_map_of(texture.file)
-                    : texture_of(texture.file,
-                                 encoding_of(texture, parameter, scene_.image.color_management));
-            std::string key = fmt::format("{}", picture);
-            pictures.emplace(key, picture);
-            return PlacedTexture{std::move(key), nullptr, texture.placing};
-        };
-        MaterialTextures textures, of_opacity;
-        MaterialTextures::add_all(object, place, textures, of_opacity);
-        const auto exported = [&](const MaterialTextures& of, const TexturedNumber& number) {
-            if (is_of_vertices(number)) return exported_number(number, {}, 0);
-            const PlacedTexture& placed = of.textures[number.texture];
-            return exported_number(number, placed, pictures.at(placed.key));
-        };
-        const auto is_left_out = [&](const TexturedNumber& number) {
-            return is_of_vertices(number) && !request_.abilities.vertex_channels;
-        };
-        for (const TexturedNumber& number : of_opacity.numbers)
-            if (request_.abilities.opacity && !is_left_out(number))
-                to.opacity_numbers.push_back(exported(of_opacity, number));
-        for (std::size_t i = 0; i < textures.numbers.size(); ++i) {
-            const TexturedNumber& number = textures.numbers[i];
-            if (is_left_out(number)) continue;
-            const bool is_of_model = i < textures.of_model, is_occlusion = i == textures.occlusion,
-                       is_color = i >= textures.color && i - textures.color < 3;
-            (is_of_model    ? to.textured_numbers
-             : is_occlusion ? to.occlusion_numbers
-             : is_color     ? to.color_numbers
-                            : to.emission_numbers)
-                .push_back(exported(textures, number));
-        }
-    }
-
     void add(std::size_t index) {
         const Object& object = scene_.objects[index];
-        require_abilities(object);
+        require_abilities(object, request_);
         auto& own = to_.objects.emplace_back();
         own.tessellator = made<Shape>(object.shape.name, object.shape.parameters);
         own.transform = object.transform;
         const bool has_opacity = request_.abilities.opacity && object.common.is_see_through();
-        declare_left_out(object);
+        for (std::string& part : left_out_of(object, request_.abilities))
+            to_.left_out.push_back(kept(std::move(part)));
         if (request_.abilities.second_uv || request_.abilities.vertex_channels)
             for (const VertexChannel& channel : vertex_channels_of(object))
                 own.channels.push_back({kept(std::string(channel.attribute)), channel.channel});
@@ -546,8 +364,7 @@ class Exporter {
             .casts_shadows = object.casts_shadows,
             .receives_shadows = object.receives_shadows,
             .transmits_light = object.transmits_light};
-        add_textured_numbers(object, own);
-        own.normal_map = normal_map_of(object);
+        textures_.add(object, own);
         // Not by their names: files with the same text are the same plugin.
         const PluginDescriptor& shading = registry_.descriptor(PluginKind::shading, object.shading.name);
         const PluginDescriptor& reflection =
@@ -579,9 +396,7 @@ class Exporter {
     const Scene& scene_;
     const ExportRequest& request_;
     std::map<std::pair<PluginKind, std::string>, std::optional<Scene>> with_;
-    std::map<std::pair<std::string, ColorEncoding>, std::size_t> textures_;  // indices of to_.textures
-    std::map<std::string, std::size_t> opacity_maps_;
-    std::map<std::pair<std::string, std::array<TextureWrap, 2>>, std::size_t> slopes_;  // of bump maps
+    ExportedTextures textures_;
 };
 
 }  // namespace

@@ -186,6 +186,12 @@ class Table {
     SharedSchema held_;
 };
 
+Table<TextureTransform> texture_transform_table();
+Table<NormalMap> normal_map_table();
+Table<NormalMap> bump_map_table();
+Table<ParameterTexture> texture_table();
+Table<ParameterTexture> vertex_attribute_table();
+
 /// All tables but the top of the file.
 struct OwnTables {
     Table<Room> room;
