@@ -19,7 +19,7 @@ class Asset:
     files: dict  # the first is the model
     scene: evaluator.Scene
     says: tuple = ()  # parts of all notes
-    levels: float = 1  # of 255, that a pixel may differ
+    levels: float = 0.5  # of 255, that a pixel may differ
     lights: str = "test"  # the test's; or the file's; or the imported scene's, with those that import adds
     own_camera: bool = False
     only_ratios: bool = False  # pixels are compared up to a common factor

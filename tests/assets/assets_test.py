@@ -8,7 +8,9 @@ import sys
 import tempfile
 from pathlib import Path
 
+import geometry
 import materials
+import mtl
 import textures
 from evaluator import encoded
 
@@ -28,11 +30,7 @@ def staged(scene: str, asset) -> str:
     of = lambda *heads: [t for t in tables if t.startswith(heads)]
     seen = asset.scene.camera
     text = ["version = 1", f"image = {{ width = {SIZE}, height = {SIZE}, samples = 1, background = [0, 0, 0] }}",
-            'shading = { model = "phong" }', 'constraints = { overlap = "allow" }']
-    if asset.own_camera or asset.lights == "file":
-        text += of("[room]")
-    else:
-        text.append("room = { width = 20, height = 20, depth = 20 }")
+            "room = { width = 20, height = 20, depth = 20 }", 'shading = { model = "phong" }', 'constraints = { overlap = "allow" }']
     if asset.own_camera:
         text += of("[observer]")
     else:
@@ -86,7 +84,7 @@ def main() -> int:
     candela, parts = str(Path(sys.argv[1]).resolve()), sys.argv[2:]
     wrong, names = 0, []
     with tempfile.TemporaryDirectory() as scratch:
-        for asset in (a for topic in (textures, materials) for a in topic.assets()):
+        for asset in (a for topic in (textures, materials, geometry, mtl) for a in topic.assets()):
             if parts and not any(part in asset.name for part in parts):
                 continue
             directory = Path(scratch) / asset.name

@@ -173,7 +173,7 @@ class Scene:
         p = Point(normal, tangent, bitangent, uv, of(quad.colors), mul(-1, direction))
         if quad.material.tilt:
             p.normal = quad.material.tilt(p)
-        if dot(cross(sub(b, a), sub(c, a)), direction) > 0:
+        if p.normal and dot(cross(sub(b, a), sub(c, a)), direction) > 0:
             p.normal = mul(-1, p.normal)
         return p
 

@@ -10,10 +10,10 @@ COPPER = tuple(linear(c / 255) for c in (240, 160, 120))
 # From the side: N.L is 0.73, N.V 0.77.
 AWAY, ASIDE = Light(direction=(-0.6, -0.5, -0.85)), Camera((-2.2, 1.1, 3))
 # Towards grazing angles, almost in the direction of the mirror image.
-LOW, GRAZING = Light(direction=(-3, 0.1, -1)), Camera((3.2, 0.3, 1.4), height=1)
+LOW, GRAZING = Light(direction=(3, 0.1, -1)), Camera((3.2, 0.3, 1.4), height=1)
 
 
-def reflecting(name, square, values, light=AWAY, camera=ASIDE, levels=1):
+def reflecting(name, square, values, light=AWAY, camera=ASIDE, levels=0.5):
     """`values`: the arguments of formulas.metallic_roughness() for a point."""
     material = Material(lambda p, to_light: formulas.metallic_roughness(p, to_light, **values(p)))
     return Asset(name, square.files(), lit(material, [light], camera), levels=levels)
@@ -26,7 +26,7 @@ def plain():
             # B.3.2 has a separable G, KHR_materials_anisotropy and Candela one that is not: further apart at grazing angles.
             square = Square().rough(metallicFactor=metallic, roughnessFactor=roughness, baseColorFactor=[*COPPER, 1])
             yield reflecting(f"{kind}-{view}", square, lambda p, m=metallic, r=roughness: {"color": COPPER, "metallic": m, "roughness": r},
-                             light, camera, 3 if view == "at-grazing-angles" else 1)
+                             light, camera, 3 if view == "at-grazing-angles" else 0.5)
     picture = pictures.colorful()
     square = Square()
     square.rough(metallicFactor=0.8, roughnessFactor=0.9, metallicRoughnessTexture=square.texture(picture, ("mirror", "clamp")),
@@ -41,7 +41,7 @@ def plain():
     yield reflecting("metallic-roughness-texture", square, values)
 
 
-def extended(name, extension, members, values, light=AWAY, camera=ASIDE, metallic=0.0, roughness=0.5, color=COPPER, textures=None, levels=1):
+def extended(name, extension, members, values, light=AWAY, camera=ASIDE, metallic=0.0, roughness=0.5, color=COPPER, textures=None, levels=0.5):
     square = Square().rough(metallicFactor=metallic, roughnessFactor=roughness, baseColorFactor=[*color, 1])
     square.extension(extension, **members)
     picture = pictures.colorful()
@@ -61,13 +61,12 @@ def extensions():
                    textures=("specularTexture", "specularColorTexture"))
     for view, light, camera in (("", AWAY, ASIDE), ("-at-grazing-angles", LOW, GRAZING)):
         yield extended("clearcoat" + view, "KHR_materials_clearcoat", {"clearcoatFactor": 0.8, "clearcoatRoughnessFactor": 0.3},
-                       {"coat": 0.8, "coat_roughness": 0.3}, light, camera, roughness=0.6, levels=3 if view else 1)
+                       {"coat": 0.8, "coat_roughness": 0.3}, light, camera, roughness=0.6, levels=3 if view else 0.5)
     yield extended("clearcoat-textures", "KHR_materials_clearcoat", {"clearcoatFactor": 0.9, "clearcoatRoughnessFactor": 0.7},
                    lambda p, at: {"coat": 0.9 * at(p)[0], "coat_roughness": 0.7 * at(p)[1]},
                    textures=("clearcoatTexture", "clearcoatRoughnessTexture"))
-    # Candela's albedo of fibres is a fit, to 0.008.
     yield extended("sheen", "KHR_materials_sheen", {"sheenColorFactor": [0.8, 0.6, 0.3], "sheenRoughnessFactor": 0.5},
-                   {"sheen": (0.8, 0.6, 0.3), "sheen_roughness": 0.5}, levels=1.5)
+                   {"sheen": (0.8, 0.6, 0.3), "sheen_roughness": 0.5})
     yield extended("sheen-at-grazing-angles", "KHR_materials_sheen", {"sheenColorFactor": [0.5, 0.5, 0.9], "sheenRoughnessFactor": 0.7},
                    {"sheen": (0.5, 0.5, 0.9), "sheen_roughness": 0.7}, LOW, GRAZING, roughness=1, levels=3)
     for degrees in (0, 50):

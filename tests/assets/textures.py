@@ -11,7 +11,7 @@ def times(a, b):
     return tuple(x * y for x, y in zip(a, b))
 
 
-def based(name, square, color, levels=1, text=False, **quad):
+def based(name, square, color, levels=0.5, text=False, **quad):
     return Asset(name, square.files(text), lit(matt(color), **quad), levels=levels)
 
 
@@ -63,7 +63,7 @@ def encodings():
     for name, picture in cases.items():
         square = Square()
         square.matt(baseColorTexture=square.texture(picture))
-        yield based(name, square, lambda p, picture=picture: picture.at(p.uv[0], True), 2 if name == "jpeg" else 1)
+        yield based(name, square, lambda p, picture=picture: picture.at(p.uv[0], True), 1 if name == "jpeg" else 0.5)  # decoders round
     import base64
     picture = pictures.colorful()
     for name, uri in (("picture-in-a-data-uri", "data:image/png;base64," + base64.b64encode(picture.file).decode()),
