@@ -26,6 +26,8 @@ CANDELA_EMBED(candela_target_texture_fragment, CANDELA_TARGET_TEMPLATES "/textur
 CANDELA_EMBED(candela_target_channels_vertex, CANDELA_TARGET_TEMPLATES "/channels_vertex.glsl");
 CANDELA_EMBED(candela_target_channels_fragment, CANDELA_TARGET_TEMPLATES "/channels_fragment.glsl");
 CANDELA_EMBED(candela_target_shadow_fragment, CANDELA_TARGET_TEMPLATES "/shadow_fragment.glsl");
+CANDELA_EMBED(candela_target_opacity_vertex, CANDELA_TARGET_TEMPLATES "/opacity_vertex.glsl");
+CANDELA_EMBED(candela_target_opacity_fragment, CANDELA_TARGET_TEMPLATES "/opacity_fragment.glsl");
 CANDELA_EMBED(candela_target_layer_uniforms, CANDELA_TARGET_TEMPLATES "/layer_uniforms.glsl");
 CANDELA_EMBED(candela_target_cover, CANDELA_TARGET_TEMPLATES "/cover.glsl");
 CANDELA_EMBED(candela_target_screen, CANDELA_TARGET_TEMPLATES "/screen.glsl");
@@ -128,17 +130,18 @@ std::string reflection_text(const ExportedReflection& model, const ExportedScene
         call(model, "reflect_ambient", constants_name(model, "material", material), "s"));
 }
 
-std::string shading_text(const ExportedShading& model) {
+std::string shading_text(const ExportedShading& model, const ExportedScene& scene) {
     constexpr const char* k_rates[] = {"#define INTENSITY_RATE flat\n", "#define INTENSITY_RATE\n",
                                        "#define LIT_AT_FRAGMENT\n"};
     const char* const triangle =
         model.needs.triangle ? "#define NEEDS_TRIANGLE\nTriangle seen_triangle;\n" : "";
-    return fmt::format("{}\n{}{}{}{}vec3 shading_normal(ShadingPoint p) {{ return {}; }}\n",
-                       model.plugin->kernel.text, uniform_of(model, "shading"),
-                       preparation_of(model, "shading", "SHADING", "shading"),
-                       k_rates[static_cast<int>(model.rate)], triangle,
-                       call(model, "normal", constants_name(model, "shading", "shading"),
-                            model.needs.triangle ? "p, seen_triangle" : "p"));
+    const bool is_face = model.rate == ShadingRate::face && has_textured_opacity(scene);
+    return fmt::format(
+        "{}\n{}{}{}{}{}vec3 shading_normal(ShadingPoint p) {{ return {}; }}\n", model.plugin->kernel.text,
+        uniform_of(model, "shading"), preparation_of(model, "shading", "SHADING", "shading"),
+        k_rates[static_cast<int>(model.rate)], is_face ? "#define LIT_AT_FACE\n" : "", triangle,
+        call(model, "normal", constants_name(model, "shading", "shading"),
+             model.needs.triangle ? "p, seen_triangle" : "p"));
 }
 
 /// A part that a stage's shaders have only in programs of scenes that need it.
@@ -163,6 +166,9 @@ std::string look_up_text(const ExportedScene& scene, const char* place, const ch
     if (!text.empty()) text += "#ifdef TEXTURED_MATERIAL\n    find_material();\n#endif\n";
     return text;
 }
+constexpr const char* k_find_opacity =
+    "#ifdef OPACITY_AT_FRAGMENT\n    lit_place = seen_place;\n    lit_uv = seen_uv;\n#endif\n"
+    "#ifdef TEXTURED_OPACITY\n    opacity = textured_opacity();\n#endif\n";
 constexpr const char* k_shading_normal = "    s.normal = facing * shading_normal(point);\n";
 constexpr const char* k_mapped_normal =
     "#if defined(NORMAL_MAPPED) && defined(LIT_AT_FRAGMENT)\n"
@@ -223,7 +229,11 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     const bool is_textured = !scene.textures.empty();
     GlslParts parts;
     const auto if_shadows = [&](const char* text) { return scene.has_shadows ? text : ""; };
-    const auto if_layers = [&](const char* text) { return has_opacity(scene) ? text : ""; };
+    const bool has_layers = has_opacity(scene), is_opacity_textured = has_textured_opacity(scene);
+    const std::string layer_inputs = std::string(is_opacity_textured ? candela_target_opacity_fragment : "") +
+                                     (has_layers ? candela_target_layer_uniforms : "");
+    const std::string cover =
+        filled(candela_target_cover, {{"FIND_OPACITY", is_opacity_textured ? k_find_opacity : ""}});
     const std::string lit =
         filled(candela_target_lit,
                {{"PREPARATION", calls_of_preparations(scene)},
@@ -236,11 +246,12 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
     for (const auto& model : scene.reflections)
         parts.reflections.push_back(
             reflection_text(model, scene, has_textured_materials(scene), has_common_textures(scene)));
-    for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model));
+    for (const auto& model : scene.shadings) parts.shadings.push_back(shading_text(model, scene));
     const bool needs_triangle = sees_triangles(scene);
     const bool has_channels = needs_channels(scene);
     if (has_channels) require_room_for_channels(scene);
     constexpr const char *k_triangle = "defined(NEEDS_TRIANGLE)", *k_texture = "defined(TEXTURED)",
+                         *k_opacity = "defined(OPACITY_AT_FRAGMENT)",
                          *k_channels = "defined(READS_CHANNELS) && defined(LIT_AT_FRAGMENT)";
     parts.vertex =
         lit +
@@ -249,6 +260,8 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
             {{needs_triangle, candela_target_triangle_vertex, "PASS_TRIANGLE", k_triangle,
               "pass_triangle();"},
              {is_textured, candela_target_texture_vertex, "PASS_TEXTURE", k_texture, "pass_texture();"},
+             {is_opacity_textured, candela_target_opacity_vertex, "PASS_OPACITY", k_opacity,
+              "pass_opacity(position, uv);"},
              {has_channels, candela_target_channels_vertex, "PASS_CHANNELS", k_channels, "pass_channels();"}},
             {{"MATERIAL", look_up_text(scene, "", "")},
              {"CORNER", if_shadows("flat out vec3 at_corner;\n")},
@@ -263,8 +276,8 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
                           {"DEPTH_UNIFORM", depth.uniform},
                           {"DEPTH", depth.statement},
                           {"SHADOW_PLACE", if_shadows(candela_target_shadow_fragment)},
-                          {"LAYER_UNIFORMS", if_layers(candela_target_layer_uniforms)},
-                          {"COVER", if_layers(candela_target_cover)},
+                          {"LAYER_UNIFORMS", layer_inputs},
+                          {"COVER", has_layers ? cover : ""},
                           {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
     if (is_textured) {
         const std::string texture = filled(candela_target_texture, {{"UNITS", material_units(scene)}});

@@ -98,6 +98,12 @@ std::string opacity_text_of(const ExportedObject& object) {
                                       number_text(number, "texel"));
 }
 
+bool takes_opacity_from_channels(const ExportedObject& object) {
+    return std::ranges::any_of(object.opacity_numbers, [](const ExportedTexturedNumber& number) {
+        return number.uv != 0 || is_of_vertices(number);
+    });
+}
+
 std::string normal_text_of(const ExportedObject& object) {
     if (object.normal_map == nullptr) return "";
     const ExportedNormalMap& map = *object.normal_map;
@@ -152,10 +158,13 @@ std::vector<std::string> textured_opacities(const ExportedScene& scene) {
     std::vector<std::string> all;
     for (const ExportedObject& object : scene.objects) {
         all.push_back(opacity_text_of(object));
-        if (!all.back().empty() && scene.shadings[object.shading].rate != ShadingRate::fragment)
+        if (takes_opacity_from_channels(object) && std::ranges::any_of(scene.shadings, [](const auto& model) {
+                return model.rate != ShadingRate::fragment;
+            }))
             throw std::runtime_error(fmt::format(
-                "a texture gives the opacity of object {}, which shaders read only where light is "
-                "evaluated for each fragment; use shading \"phong\"",
+                "the opacity of object {} depends on numbers of its vertices or on their second texture "
+                "coordinates, which shaders read only where light is evaluated for each fragment; use "
+                "shading \"phong\" for all objects",
                 object.label));
         if (scene.has_shadows && object.casts_shadows && object.is_see_through())
             throw std::runtime_error(

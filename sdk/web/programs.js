@@ -100,8 +100,8 @@ export class ProgramCache {
     }
 
     /** The program for an object of an appearance; it may still be compiling (Program.check waits). */
-    lighting({ shading, reflection, closed, isTextured, material, normalMap }) {
-        const key = `${shading} ${reflection} ${closed} ${material} ${normalMap}`;
+    lighting({ shading, reflection, closed, isTextured, material, normalMap, opacityMap }) {
+        const key = `${shading} ${reflection} ${closed} ${material} ${normalMap} ${opacityMap}`;
         if (!this.programs.has(key)) {
             const { shaders, shading_models, reflection_models } = this.scene;
             const s = shading_models[shading], r = reflection_models[reflection];
@@ -110,7 +110,8 @@ export class ProgramCache {
                 (material === null ? "" : "#define TEXTURED_MATERIAL\n") +
                 [shaders.prelude, isTextured ? shaders.texture : "", shaders.lights, r.glsl, s.glsl,
                     material === null ? "" : shaders.materials[material],
-                    normalMap === null ? "" : shaders.normal_maps[normalMap], ""].join("\n");
+                    normalMap === null ? "" : shaders.normal_maps[normalMap],
+                    opacityMap === null ? "" : shaders.opacities[opacityMap], ""].join("\n");
             const title = `${r.title} with the shading model ${s.title}`;
             this.programs.set(key, this.compiled(title, common + shaders.vertex, common + shaders.fragment));
         }

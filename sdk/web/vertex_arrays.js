@@ -97,16 +97,16 @@ export class VertexArrays {
     }
 
     /** For each attribute the name of its values, or three numbers if it is the same everywhere. */
-    sourcesOf({ rate, seesTriangle, isTextured }, normalSet) {
+    sourcesOf({ rate, seesTriangle, isTextured, hasOpacityMap = false }, normalSet) {
         const { uv, dpdu, dpdv, color } = this.mesh;
-        const mean = rate === "face" ? " mean" : "";
+        const mean = rate === "face" ? " mean" : "", readsAtFragment = isTextured && (rate === "fragment" || hasOpacityMap);
         const normals = `normals ${normalSet}${mean}`;
         const triangle = TRIANGLE_ATTRIBUTES.map((name) =>
             [name, `${name[0] === "p" ? "position" : `normals ${normalSet}`} of ${name[1]}`]);
         return {
             ...(seesTriangle ? Object.fromEntries(triangle) : {}),
-            ...(isTextured && rate === "fragment" ? Object.fromEntries(triangle.slice(0, 3)) : {}),
-            ...(isTextured && rate === "fragment" && uv !== null ? { uv_edges: "uv edges" } : {}),
+            ...(readsAtFragment ? Object.fromEntries(triangle.slice(0, 3)) : {}),
+            ...(readsAtFragment && uv !== null ? { uv_edges: "uv edges" } : {}),
             ...(isTextured ? this.channelSources(rate) : {}),
             position: "position",
             place: `position${mean}`,

@@ -9,6 +9,7 @@ from accessible import Accessible, AccessibleExercise, AccessibleThree, Accessib
 from controls import Controls
 from exercising import Exercising
 from formulas import Formulas, Keeping
+from layers import Layers
 from lights import Lights
 from links import Links
 from looking import Looking
@@ -20,7 +21,7 @@ from three_pages import Three
 from typesetting import Typesetting
 from viewing import Viewing
 
-__all__ = ["Access", "Accessible", "AccessibleExercise", "AccessibleThree", "AccessibleView", "Controls", "Exercising", "Formulas", "Keeping", "Lights", "Links", "Looking", "Panes", "Picturing", "Robustness",
+__all__ = ["Access", "Accessible", "AccessibleExercise", "AccessibleThree", "AccessibleView", "Controls", "Exercising", "Formulas", "Keeping", "Layers", "Lights", "Links", "Looking", "Panes", "Picturing", "Robustness",
            "Shadows", "Three", "Typesetting", "Viewing"]
 
 if __name__ == "__main__":

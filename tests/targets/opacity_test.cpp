@@ -79,23 +79,18 @@ TEST_CASE("verify: a C++ program has surfaces that cover a part of what is behin
 
 TEST_CASE("verify: an OpenGL program peels surfaces that cover a part of what is behind them", "[whole]") {
     const fs::path folder = scratch_directory();
-    // Shaders read textures of opacity where light is evaluated for each fragment.
-    std::string text = read_file(layered_scene(folder));
-    for (const char* const shading : {"\"gouraud\"", "\"flat\""})
-        for (std::size_t at = text.find(shading); at != std::string::npos; at = text.find(shading))
-            text.replace(at, std::string(shading).size(), "\"phong\"");
-    verify(write_file(folder / "phong.toml", text), "opengl");
-    SECTION("what its shaders do not have is refused") {
-        const auto refused = [&](const fs::path& scene, const char* reason) {
-            const CommandResult result = run_candela(
-                {"generate", scene.string(), "--target", "opengl", "-o", (folder / "refused").string()});
-            CHECK(result.exit_code == 1);
-            CHECK(holds(result.err, reason));
-        };
-        refused(layered_scene(folder), "a texture gives the opacity of object ring");
-        refused(write_file(folder / "shadows.toml", text + "[shadows]\nenabled = true\n"),
-                "object ball lets some light through");
+    verify(layered_scene(folder), "opengl");
+    SECTION("shadows of surfaces that let light through are refused") {
+        const fs::path shadowed = layered_scene(folder, "[shadows]\nenabled = true\n");
+        const CommandResult result = run_candela(
+            {"generate", shadowed.string(), "--target", "opengl", "-o", (folder / "refused").string()});
+        CHECK(result.exit_code == 1);
+        CHECK(holds(result.err, "object ball lets some light through"));
     }
+}
+
+TEST_CASE("verify: a page peels surfaces that cover a part of what is behind them", "[whole]") {
+    verify(layered_scene(scratch_directory()), "webgl");
 }
 
 TEST_CASE("verify: a C++ program has the shadows of surfaces that let light through", "[whole]") {

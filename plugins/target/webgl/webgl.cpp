@@ -229,11 +229,16 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         {"material", all_textured_numbers(object).empty() ? Json() : Json(index)},
         {"common_material", has_common_textures(object) ? Json(scene.objects.size() + index) : Json()},
         {"normal_map", object.normal_map == nullptr ? Json() : Json(index)},
+        {"opacity_map", object.opacity_numbers.empty() ? Json() : Json(index)},
         {"material_pictures", pictures_json(object)},
         {"mesh", mesh_json(scene, mesh, arrays)}};
     const Rgb emission = emission_of(object, scene.image.color_management);
     if (has_emission(scene)) json["emission"] = {emission.r, emission.g, emission.b};
     if (has_occlusion(scene)) json["occlusion"] = object.occlusion;
+    if (has_opacity(scene)) {
+        json["opacity"] = object.opacity;
+        json["opacity_cutoff"] = object.opacity_cutoff;
+    }
     if (scene.has_shadows) {
         json["receives_shadows"] = object.receives_shadows;
         json["is_solid"] = mesh.is_solid;
@@ -361,6 +366,7 @@ Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
                    {"texture", glsl.texture},
                    {"materials", materials},
                    {"normal_maps", glsl.normal_maps},
+                   {"opacities", glsl.opacities},
                    {"lights", glsl.lights},
                    {"vertex", glsl.vertex},
                    {"fragment", glsl.fragment},
@@ -403,6 +409,7 @@ class WebGlTarget final : public Target {
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,
+                .opacity = true,
                 .shadows = true,
                 .display = true};
     }

@@ -1,8 +1,6 @@
     ivec2 at_pixel = ivec2(gl_FragCoord.xy);
     float opacity = object_opacity;
-#if defined(TEXTURED_OPACITY) && defined(LIT_AT_FRAGMENT)
-    opacity = textured_opacity();
-#endif
+@FIND_OPACITY@
     if (object_opacity_cutoff > 0.0) opacity = opacity >= object_opacity_cutoff ? 1.0 : 0.0;
     if (opacity <= 0.0 || texelFetch(covered, at_pixel, 0).a >= 1.0) discard;
     if (!is_first_layer && gl_FragDepth >= texelFetch(depth_before, at_pixel, 0).r) discard;

@@ -1,9 +1,10 @@
 
-#if defined(TEXTURED) && defined(LIT_AT_FRAGMENT)
+#if defined(TEXTURED) && (defined(LIT_AT_FRAGMENT) || defined(TEXTURED_OPACITY))
+#define TEXTURED_AT_FRAGMENT
 // The change of the line of sight from pixel to pixel: in metres, at a distance of 1 in perspective.
 uniform vec3 pixel_right;
 uniform vec3 pixel_up;
-#ifndef NEEDS_TRIANGLE
+#if !defined(NEEDS_TRIANGLE) || !defined(LIT_AT_FRAGMENT)
 flat in vec3 at_p0;
 flat in vec3 at_p1;
 flat in vec3 at_p2;
@@ -11,7 +12,7 @@ flat in vec3 at_p2;
 flat in vec4 at_uv_edges;
 #endif
 #ifdef READS_PICTURES
-#ifdef LIT_AT_FRAGMENT
+#ifdef TEXTURED_AT_FRAGMENT
 vec3 lit_place;
 vec2 lit_uv;
 // `edges`: how the coordinates change along two edges of the triangle.

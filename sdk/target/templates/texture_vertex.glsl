@@ -1,9 +1,12 @@
 
-#if defined(TEXTURED) && defined(LIT_AT_FRAGMENT)
+#if defined(TEXTURED) && (defined(LIT_AT_FRAGMENT) || defined(TEXTURED_OPACITY))
+#define TEXTURED_AT_FRAGMENT
 #ifndef NEEDS_TRIANGLE
 layout(location = 9) in vec3 p0;
 layout(location = 10) in vec3 p1;
 layout(location = 11) in vec3 p2;
+#endif
+#if !defined(NEEDS_TRIANGLE) || !defined(LIT_AT_FRAGMENT)
 flat out vec3 at_p0;
 flat out vec3 at_p1;
 flat out vec3 at_p2;

@@ -29,6 +29,7 @@ INTENSITY_RATE out vec3 back;
 void main() {
     gl_Position = view_projection * vec4(position, 1.0);
 @PASS_TRIANGLE@
+@PASS_OPACITY@
 #ifdef LIT_AT_FRAGMENT
     at_place = place;
     at_vertex_normal = vertex_normal;

@@ -57,11 +57,12 @@ export function materialUniforms(settings, index, reflection) {
         scene.objects[index].fixed.material[reflection], "material", isSrgb);
 }
 
-/** The uniforms of emission and occlusion, in a scene where objects have it. */
-function commonUniforms({ emission, occlusion }) {
+/** The uniforms of emission, occlusion and opacity, in a scene where objects have it. */
+function commonUniforms({ emission, occlusion, opacity, opacity_cutoff }) {
     return [
         ...(emission ? [["object_emission", { kind: "vec3", value: emission }]] : []),
         ...(occlusion !== undefined ? [["object_occlusion", { kind: "float", value: occlusion }]] : []),
+        ...(opacity !== undefined ? [["object_opacity", { kind: "float", value: opacity }], ["object_opacity_cutoff", { kind: "float", value: opacity_cutoff }]] : []),
     ];
 }
 
@@ -87,8 +88,8 @@ export function appearanceOf(settings) {
         const material = reflection === object.reflection ? object.material : object.common_material;
         return {
             shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
-            material, normalMap: object.normal_map,
-            isTextured: material !== null || object.normal_map !== null,
+            material, normalMap: object.normal_map, opacityMap: object.opacity_map,
+            isTextured: [material, object.normal_map, object.opacity_map].some((text) => text !== null),
             uniforms: [
                 ["object_index", { kind: "int", value: i }],
                 ["is_shadowed", { kind: "int", value: hasShadows && object.receives_shadows ? 1 : 0 }],

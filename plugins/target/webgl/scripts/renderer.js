@@ -1,5 +1,6 @@
 import { clippingPlanes, lineOfSight, pixelSize, viewAxes, viewProjection } from "../../../../sdk/web/camera.js";
 import { Film } from "./film.js";
+import { LayeredFilm, drawLayers } from "./layers.js";
 import { LightTable } from "./lights.js";
 import { Mesh } from "./mesh.js";
 import { Radiance } from "./radiance.js";
@@ -30,6 +31,7 @@ export class Renderer {
         this.textures = scene.textures.map((texture) =>
             previous?.textures.find((one) => one.isOf(texture, this.isSrgb)) ?? new Texture(gl, texture, this.isSrgb));
         for (const texture of this.textures) texture.users += 1;
+        this.isLayered = scene.objects.some(({ opacity }) => opacity !== undefined);
         this.mostPictures = Math.max(0, ...scene.objects.map((object) => object.material_pictures.length));
         this.shadows = this.shadowsOf(scene, previous);
         this.radiance = this.radianceOf(scene, previous);
@@ -94,10 +96,15 @@ export class Renderer {
         const { gl } = this;
         const limit = Math.min(gl.getParameter(gl.MAX_TEXTURE_SIZE), gl.getParameter(gl.MAX_RENDERBUFFER_SIZE));
         if (width > limit || height > limit) throw new Error(`This device draws pictures of at most ${limit} x ${limit} pixels.`);
-        const film = new Film(gl, width, height, this.format);
+        const film = new (this.isLayered ? LayeredFilm : Film)(gl, width, height, this.format);
         if (film.isComplete() || gl.isContextLost()) return film;
         film.release();
         throw new Error(`This device's graphics memory has no room for a picture of ${width} x ${height} pixels.`);
+    }
+
+    /** Whether a film that another renderer has created is of the kind that this one draws into. */
+    fits(film) {
+        return film instanceof LayeredFilm === this.isLayered;
     }
 
     /**
@@ -137,12 +144,22 @@ export class Renderer {
             picture_height: { kind: "int", value: film.height },
             line_of_sight: { kind: "vec3", value: lineOfSight(observer, film.width, film.height, position) },
         };
-        gl.bindFramebuffer(gl.FRAMEBUFFER, film.picture.framebuffer);
         gl.viewport(0, 0, film.width, film.height);
         gl.enable(gl.SCISSOR_TEST);
         gl.scissor(0, rows[0], film.width, rows[1] - rows[0]);
-        gl.clearColor(...appearance.background, 1);
-        gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+        if (this.isLayered) {
+            drawLayers(this, film, appearance, frameUniforms, rows);
+        } else {
+            gl.bindFramebuffer(gl.FRAMEBUFFER, film.picture.framebuffer);
+            gl.clearColor(...appearance.background, 1);
+            gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+            this.drawObjects(appearance, frameUniforms);
+        }
+        gl.disable(gl.SCISSOR_TEST);
+    }
+
+    drawObjects(appearance, frameUniforms) {
+        const { gl } = this;
         const prepared = new Set();
         appearance.objects.forEach((object, i) => {
             const program = this.programs.lighting(object).check();
@@ -156,12 +173,11 @@ export class Renderer {
             object.closed ? gl.enable(gl.CULL_FACE) : gl.disable(gl.CULL_FACE);
             this.meshes[i].draw(object);
         });
-        gl.disable(gl.SCISSOR_TEST);
     }
 
     /** Binds the textures of an object that has some; returns the uniforms with which they are read. */
-    textureUniforms(index, { material, normalMap }) {
-        if (material === null && normalMap === null) return [];
+    textureUniforms(index, { isTextured }) {
+        if (!isTextured) return [];
         const pictures = this.scene.objects[index].material_pictures, uniforms = {};
         pictures.forEach(([picture, ...wraps], i) => Object.assign(uniforms, this.textures[picture].bind(MATERIAL_UNIT + i, wraps, i)));
         // Even a sampler that is not read must refer to a texture of its type, and not to the picture that is being drawn.
@@ -185,9 +201,14 @@ export class Renderer {
         setTimeout(poll, 0);
     }
 
-    /** A pass over all pixels into a framebuffer; null is the canvas. */
+    /** A pass of the scene's over all pixels into a framebuffer; null is the canvas. */
     drawPass(name, framebuffer, textures, uniforms) {
-        const { gl } = this, program = this.programs.pass(name);
+        this.runPass(this.programs.pass(name), framebuffer, textures, uniforms);
+    }
+
+    /** `draw`: what the program is run for, if not for all pixels. */
+    runPass(program, framebuffer, textures, uniforms, draw = () => this.gl.drawArrays(this.gl.TRIANGLES, 0, 3)) {
+        const { gl } = this;
         gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
         gl.useProgram(program.handle);
         gl.disable(gl.DEPTH_TEST);
@@ -199,7 +220,7 @@ export class Renderer {
         });
         for (const [uniform, value] of Object.entries(uniforms)) program.setUniform(uniform, value);
         gl.bindVertexArray(this.emptyVertexArray);
-        gl.drawArrays(gl.TRIANGLES, 0, 3);
+        draw();
         gl.bindVertexArray(null);
         Object.keys(textures).forEach((_, unit) => {
             gl.activeTexture(gl.TEXTURE0 + unit);

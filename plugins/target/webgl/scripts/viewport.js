@@ -108,7 +108,7 @@ export class Viewport {
         const pixels = [width, height].map((size) => Math.max(1, Math.round(size * ratio)));
         const { films } = view, kind = resolutionScale < 1 ? "draft" : "finished";
         view.film = films[kind] ?? null;
-        if (view.film && view.film.width === pixels[0] && view.film.height === pixels[1]) return;
+        if (view.film && view.film.width === pixels[0] && view.film.height === pixels[1] && this.renderer.fits(view.film)) return;
         view.film?.release();
         delete films[kind];
         view.film = null;

@@ -1,0 +1,6 @@
+
+#if defined(TEXTURED_OPACITY) && !defined(LIT_AT_FRAGMENT)
+#define OPACITY_AT_FRAGMENT
+in vec3 seen_place;
+in vec2 seen_uv;
+#endif
