@@ -20,6 +20,7 @@
 #include "candela/target/textures.h"
 
 CANDELA_EMBED(candela_target_shadows, CANDELA_TARGET_TEMPLATES "/shadows.glsl");
+CANDELA_EMBED(candela_target_light_passes, CANDELA_TARGET_TEMPLATES "/light_passes.glsl");
 CANDELA_EMBED(candela_target_mirror, CANDELA_TARGET_TEMPLATES "/mirror.glsl");
 CANDELA_EMBED(candela_target_sample_offsets, CANDELA_TARGET_TEMPLATES "/sample_offsets.glsl");
 CANDELA_EMBED(candela_target_extended_light, CANDELA_TARGET_TEMPLATES "/extended_light.glsl");
@@ -237,15 +238,36 @@ class LightLoopWriter {
     std::string body_;
 };
 
+/// The parts of the shadows' text for surfaces that light passes in part.
+Values passing_texts(const ExportedScene& scene) {
+    const bool passes = lets_light_through(scene);
+    const auto if_passes = [&](const char* text, const char* otherwise = "") {
+        return passes ? text : otherwise;
+    };
+    return {{"OPACITY_COMMENT", if_passes(" Of the second: the part of the light that it\n"
+                                          "// blocks, as bits of a float.")},
+            {"PASSING", if_passes(candela_target_light_passes)},
+            {"OWNS_EDGES",
+             if_passes("    float whole = u + v + w;\n"
+                       "    if (opacity_of(triangle) < 1.0 && !(owns_edge(u, to_c, whole) && owns_edge(v, "
+                       "to_a, whole) && owns_edge(w, to_b, whole))) return false;\n")},
+            {"LEFT", if_passes("    float left = 1.0;\n")},
+            {"BLOCKED", if_passes("left *= 1.0 - opacity_of(triangle);\n"
+                                  "            if (left <= 0.0) return 0.0;",
+                                  "return 0.0;")},
+            {"FREE", if_passes("left", "1.0")},
+            {"ZERO_OR_ONE", if_passes("", ": 1, or 0 if an object blocks it")}};
+}
+
 /// The functions that the loops call, except those of kernels.
 std::string shadows_text(const ExportedScene& scene, bool varies) {
     if (!scene.has_shadows) return "";
     const bool has_occlusion = std::ranges::any_of(
         scene.lights, [](const ExportedLight& light) { return light.ambient_occlusion_rays > 0; });
-    std::string text =
-        filled(candela_target_shadows,
-               {{"LAST_COLUMN", fmt::format("{}", k_shadow_tree_width - 1)},
-                {"ROW_BITS", fmt::format("{}", std::countr_zero(unsigned{k_shadow_tree_width}))}});
+    Values values = passing_texts(scene);
+    values.emplace_back("LAST_COLUMN", fmt::format("{}", k_shadow_tree_width - 1));
+    values.emplace_back("ROW_BITS", fmt::format("{}", std::countr_zero(unsigned{k_shadow_tree_width})));
+    std::string text = filled(candela_target_shadows, views_of(values));
     if (varies || (has_occlusion && scene.shadows_vary)) text += candela_target_sample_offsets;
     if (varies) text += candela_target_extended_light;
     if (has_occlusion)

@@ -166,11 +166,11 @@ std::vector<std::string> textured_opacities(const ExportedScene& scene) {
                 "coordinates, which shaders read only where light is evaluated for each fragment; use "
                 "shading \"phong\" for all objects",
                 object.label));
-        if (scene.has_shadows && object.casts_shadows && object.is_see_through())
-            throw std::runtime_error(
-                fmt::format("object {} lets some light through, which the shadows of shaders do not; set "
-                            "casts_shadows = false, or draw the scene with --no-shadows",
-                            object.label));
+        if (scene.has_shadows && object.casts_shadows && !all.back().empty())
+            throw std::runtime_error(fmt::format(
+                "a texture gives the opacity of object {}, which the shadows of shaders do not read; set "
+                "casts_shadows = false, or draw the scene with --no-shadows",
+                object.label));
     }
     return all;
 }

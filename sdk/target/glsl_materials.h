@@ -18,8 +18,8 @@ bool has_common_textures(const ExportedScene& scene);
 /// Declares own_emission and own_occlusion, of an object or a point, in a scene where objects have them.
 std::string common_material(const ExportedScene& scene);
 
-/// For each object, GlslParts::opacities. Throws std::runtime_error if one that is not opaque casts
-/// shadows.
+/// For each object, GlslParts::opacities. Throws std::runtime_error if one whose opacity a texture
+/// gives casts shadows.
 std::vector<std::string> textured_opacities(const ExportedScene& scene);
 
 /// For each object, GlslParts::normal_maps.

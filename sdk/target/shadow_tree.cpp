@@ -161,6 +161,12 @@ float extent_of(const std::array<Vec3, 3>& corners) {
 
 }  // namespace
 
+bool lets_light_through(const ExportedScene& scene) {
+    return scene.has_shadows && std::ranges::any_of(scene.objects, [](const ExportedObject& object) {
+               return object.casts_shadows && object.is_see_through();
+           });
+}
+
 ShadowTree shadow_tree(const ExportedScene& scene) {
     std::vector<Triangle> triangles;
     std::size_t all = 0;

@@ -2,6 +2,12 @@ import { bytesOf, floatsOf, indicesOf } from "./arrays.js";
 
 const integersOf = (name) => new Int32Array(bytesOf(name).buffer);
 
+/** The part of the light that an object without a texture of opacity blocks. */
+function blockedPart({ opacity = 1, opacity_cutoff = 0 }) {
+    if (opacity_cutoff <= 0) return opacity;
+    return opacity >= opacity_cutoff ? 1 : 0;
+}
+
 /**
  * The tree of boxes around the triangles that block light, as shaders read it: texels of four integers in rows of
  * `tree.width`, positions as bits of floats. First the nodes, whose boxes are found here, then the triangles.
@@ -11,7 +17,8 @@ export function shadowTexels(tree, objects) {
     const height = Math.ceil((first + 3 * tree.triangles) / tree.width);
     const integers = new Int32Array(4 * tree.width * height), floats = new Float32Array(integers.buffer);
     let number = 0;
-    objects.forEach(({ mesh, is_solid }, i) => {
+    objects.forEach((object, i) => {
+        const { mesh, is_solid } = object, blocked = blockedPart(object);
         const positions = floatsOf(mesh.position), indices = indicesOf(mesh.indices);
         for (let t = 0; t < indices.length; t += 3) {
             const place = places[number++];
@@ -19,6 +26,7 @@ export function shadowTexels(tree, objects) {
             const at = 4 * (first + 3 * place);
             for (let k = 0; k < 9; ++k) floats[at + k + Math.floor(k / 3)] = positions[3 * indices[t + Math.floor(k / 3)] + (k % 3)];
             integers[at + 3] = 2 * i + (is_solid ? 1 : 0);
+            floats[at + 7] = blocked;
         }
     });
     // Children come after their parents. A node takes eight numbers, the corners of its box, each with a link.

@@ -80,12 +80,13 @@ TEST_CASE("verify: a C++ program has surfaces that cover a part of what is behin
 TEST_CASE("verify: an OpenGL program peels surfaces that cover a part of what is behind them", "[whole]") {
     const fs::path folder = scratch_directory();
     verify(layered_scene(folder), "opengl");
-    SECTION("shadows of surfaces that let light through are refused") {
+    SECTION("textures of opacity of what casts shadows are refused") {
         const fs::path shadowed = layered_scene(folder, "[shadows]\nenabled = true\n");
         const CommandResult result = run_candela(
             {"generate", shadowed.string(), "--target", "opengl", "-o", (folder / "refused").string()});
         CHECK(result.exit_code == 1);
-        CHECK(holds(result.err, "object ball lets some light through"));
+        CHECK(holds(result.err,
+                    "a texture gives the opacity of object ring, which the shadows of shaders do not read"));
     }
 }
 
@@ -95,6 +96,21 @@ TEST_CASE("verify: a page peels surfaces that cover a part of what is behind the
 
 TEST_CASE("verify: a C++ program has the shadows of surfaces that let light through", "[whole]") {
     verify(layered_scene(scratch_directory(), "[shadows]\nenabled = true\n"), "cpp");
+}
+
+TEST_CASE("verify: shaders have the shadows of surfaces that let light through", "[whole]") {
+    const fs::path folder = scratch_directory();
+    std::string text = read_file(layered_scene(folder, "[shadows]\nenabled = true\n"));
+    const auto replace = [&](const std::string& texture, const std::string& number) {
+        const std::size_t at = text.find(texture);
+        REQUIRE(at != std::string::npos);
+        text.replace(at, texture.size(), number);
+    };
+    replace("{ texture = \"soft.ppm\", transform = { scale = [3, 1] } }\nopacity_cutoff = 0.5", "0.6");
+    replace("{ texture = \"soft.ppm\", channel = \"g\", scale = 0.8 }", "0.3");
+    const fs::path scene = write_file(folder / "constant.toml", text);
+    verify(scene, "opengl");
+    verify(scene, "webgl");
 }
 
 TEST_CASE("generate: the program of a scene without opacity does not mention it") {

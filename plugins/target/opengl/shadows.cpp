@@ -41,6 +41,12 @@ constexpr const char* k_help = "                 \"  --no-shadows            obj
 constexpr const char* k_argument =
     "        else if (words[i] == \"--no-shadows\") choice.has_shadows = false;\n";
 
+constexpr const char* k_shadow_opacity =
+    "        const float cutoff = k_objects[i].opacity_cutoff, uncut = k_objects[i].opacity;\n"
+    "        const float opacity = cutoff <= 0 ? uncut : uncut >= cutoff ? 1.0f : 0.0f;\n";
+constexpr const char* k_put_opacity =
+    "            std::memcpy(&texels[at + 1][3], &opacity, sizeof(opacity));\n";
+
 constexpr const char* k_struct = R"(
 // The tree of boxes around the triangles that block light, node by node, each before its children.
 struct ShadowTree {
@@ -65,7 +71,10 @@ Values shadow_values(const ExportedScene& scene) {
     std::string texture, arrays, set_tree;
     if (scene.has_shadows) {
         const ShadowTree tree = shadow_tree(scene);
-        texture = filled(candela_opengl_shadows, {{"WIDTH", fmt::format("{}", k_shadow_tree_width)}});
+        const bool passes = lets_light_through(scene);
+        texture = filled(candela_opengl_shadows, {{"WIDTH", fmt::format("{}", k_shadow_tree_width)},
+                                                  {"SHADOW_OPACITY", passes ? k_shadow_opacity : ""},
+                                                  {"PUT_OPACITY", passes ? k_put_opacity : ""}});
         arrays = arrays_of(tree);
         set_tree = fmt::format(
             "        set(program, {{\"shadow_tree\", Uniform::whole, {{5, 0, 0}}}});\n"

@@ -4,7 +4,7 @@
 // the first: the node at which a ray goes on that misses the box, or that has met the node's triangles; -1: none. Of the
 // second: -1 if the node has children, the first of which follows it; otherwise 8 times the first texel of its triangles plus
 // their number. A triangle is three texels, its vertices. The fourth number of the first: twice its object's number, plus 1 if
-// the object is solid, that is closed with nothing inside.
+// the object is solid, that is closed with nothing inside.@OPACITY_COMMENT@
 uniform highp isampler2D shadow_tree;
 uniform float least_margin;
 uniform int object_index;
@@ -36,6 +36,7 @@ bool is_let_through(int owner, float cosine, bool is_below) {
     return is_solid ? cosine >= 0.0 : is_own && is_below && cosine * seen_facing >= 0.0;
 }
 
+@PASSING@
 // By the signs of the volumes between the ray and the triangle's edges. Two triangles compute the same volume for the edge that
 // they share, so that no ray slips through between them.
 bool triangle_blocks(int triangle, vec3 from, vec3 direction, float reach, bool is_below) {
@@ -51,6 +52,7 @@ bool triangle_blocks(int triangle, vec3 from, vec3 direction, float reach, bool 
     float w = dot(cross(to_b, b + c), direction);
     float rounding = 1.1920929e-7 * abs(u + v + w);
     if (min(min(u, v), w) < -rounding && max(max(u, v), w) > rounding) return false;
+@OWNS_EDGES@
     vec3 normal = cross(to_c, to_a);
     float cosine = dot(normal, direction);  // times lengths
     if (cosine == 0.0 || is_let_through(first.w, cosine, is_below)) return false;
@@ -58,7 +60,8 @@ bool triangle_blocks(int triangle, vec3 from, vec3 direction, float reach, bool 
     return along >= 0.0 && along <= reach;
 }
 
-bool ray_is_free(vec3 from, vec3 direction, float reach, bool is_below) {
+float free_part(vec3 from, vec3 direction, float reach, bool is_below) {
+@LEFT@
     vec3 inverse = 1.0 / mix(direction, vec3(1.0e-18), lessThan(abs(direction), vec3(1.0e-18)));
     for (int node = 0; node >= 0;) {
         ivec4 low = tree_texel(2 * node);
@@ -77,11 +80,11 @@ bool ray_is_free(vec3 from, vec3 direction, float reach, bool is_below) {
         int triangle = high.w >> 3;
         int end = meets ? triangle + 3 * (high.w & 7) : triangle;
         for (; triangle < end; triangle += 3) {
-            if (triangle_blocks(triangle, from, direction, reach, is_below)) return false;
+            if (triangle_blocks(triangle, from, direction, reach, is_below)) @BLOCKED@
         }
         node = low.w;
     }
-    return true;
+    return @FREE@;
 }
 
 // Whether the normal turns away from a light as one moves towards it: the surface is hollow there, rises towards the light and
@@ -94,7 +97,7 @@ bool is_hollow(vec3 to_light) {
 
 bool lights_below_horizon();
 
-// The part of the light from a direction that reaches a point: 1, or 0 if an object blocks it.
+// The part of the light from a direction that reaches a point@ZERO_OR_ONE@.
 float visible_part(Receiver r, vec3 to_light, float distance) {
     if (!lights_below_horizon() && dot(r.normal, to_light) <= 0.0) return 1.0;
     vec3 p = abs(r.position);
@@ -108,7 +111,7 @@ float visible_part(Receiver r, vec3 to_light, float distance) {
     vec3 shift = (is_below ? -margin : margin) * (2.0 * seen_side - to_light);
     // In the edge of a room, that is behind the adjacent wall; so rays also start further inside their triangle.
     if (blocks_both_sides) shift += 4.0 * margin * seen_inward;
-    return ray_is_free(r.position + shift, to_light - shift / distance, reach, is_below) ? 1.0 : 0.0;
+    return free_part(r.position + shift, to_light - shift / distance, reach, is_below);
 }
 
 float visible_part(Receiver r, Incident incident, float distance) {

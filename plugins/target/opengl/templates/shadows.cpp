@@ -18,11 +18,13 @@ GLuint shadow_texture() {
     const int* place = tree.places;
     for (std::size_t i = 0; i < k_objects.size(); ++i) {
         const MeshArrays& mesh = k_objects[i].mesh;
+@SHADOW_OPACITY@
         for (std::size_t t = 0; t < mesh.triangles; ++t, ++place) {
             if (*place < 0) continue;
             const std::size_t at = first + 3 * static_cast<std::size_t>(*place);
             for (std::size_t k = 0; k < 3; ++k) put(at + k, mesh.position + 3 * std::size_t{mesh.corners[3 * t + k]});
             texels[at][3] = static_cast<GLint>(2 * i) + (k_objects[i].is_solid ? 1 : 0);
+@PUT_OPACITY@
         }
     }
     // Children come after their parents.

@@ -12,7 +12,7 @@ export class Shadows extends DataTexture {
 
     /** Equal for scenes whose shadows are the same for a renderer. */
     static keyOf({ shadows, objects }) {
-        return JSON.stringify([shadows, objects.map(({ mesh, is_solid }) => [mesh.position, mesh.indices, is_solid])]);
+        return JSON.stringify([shadows, objects.map(({ mesh, is_solid, opacity, opacity_cutoff }) => [mesh.position, mesh.indices, is_solid, opacity, opacity_cutoff])]);
     }
 
     isOf(scene) {

@@ -16,7 +16,8 @@ namespace candela::target {
 /// Shaders read it from `shadow_tree`, a texture (RGBA32I) with k_shadow_tree_width texels in a row;
 /// positions are in it as bits of floats. First come the nodes, two texels each: the low corner of the box
 /// and `nodes[2 i]`, the high corner and `nodes[2 i + 1]`. Then the triangles, three texels each: their
-/// vertices, the first of them with twice the object's number, plus 1 if the object is solid (ExportedMesh).
+/// vertices, the first of them with twice the object's number, plus 1 if the object is solid (ExportedMesh),
+/// and, in a scene with opacity, the second with the part of the light that it blocks, as bits of a float.
 struct ShadowTree {
     /// Two numbers per node. The first: the node at which a ray goes on that misses the box, or that has met
     /// the node's triangles; -1 if there is none. The second: of a node with children -1; its first child
@@ -33,6 +34,9 @@ struct ShadowTree {
 };
 
 constexpr int k_shadow_tree_width = 2048;
+
+/// Whether an object that casts shadows blocks only a part of the light.
+bool lets_light_through(const ExportedScene& scene);
 
 /// The tree of the scene's objects that cast shadows.
 ShadowTree shadow_tree(const ExportedScene& scene);
