@@ -20,7 +20,6 @@ CANDELA_EMBED(candela_target_vertex, CANDELA_TARGET_TEMPLATES "/vertex.glsl");
 CANDELA_EMBED(candela_target_fragment, CANDELA_TARGET_TEMPLATES "/fragment.glsl");
 CANDELA_EMBED(candela_target_triangle_vertex, CANDELA_TARGET_TEMPLATES "/triangle_vertex.glsl");
 CANDELA_EMBED(candela_target_triangle_fragment, CANDELA_TARGET_TEMPLATES "/triangle_fragment.glsl");
-CANDELA_EMBED(candela_target_texture, CANDELA_TARGET_TEMPLATES "/texture.glsl");
 CANDELA_EMBED(candela_target_texture_vertex, CANDELA_TARGET_TEMPLATES "/texture_vertex.glsl");
 CANDELA_EMBED(candela_target_texture_fragment, CANDELA_TARGET_TEMPLATES "/texture_fragment.glsl");
 CANDELA_EMBED(candela_target_channels_vertex, CANDELA_TARGET_TEMPLATES "/channels_vertex.glsl");
@@ -280,8 +279,7 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
                           {"COVER", has_layers ? cover : ""},
                           {"PLACE", scene.has_shadows ? "place_on_triangle()" : "at_place"}});
     if (is_textured) {
-        const std::string texture = filled(candela_target_texture, {{"UNITS", material_units(scene)}});
-        parts.texture = texture + std::string(texture_kernel()) + "\n";
+        parts.texture = "#define TEXTURED\n" + texture_functions(scene, material_units(scene));
         if (has_normal_maps(scene)) parts.texture += std::string(normal_map_kernel()) + "\n";
     }
     parts.materials = textured_materials(scene);

@@ -18,9 +18,11 @@
 #include "candela/target/shadow_tree.h"
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
+#include "glsl_materials.h"
 
 CANDELA_EMBED(candela_target_shadows, CANDELA_TARGET_TEMPLATES "/shadows.glsl");
 CANDELA_EMBED(candela_target_light_passes, CANDELA_TARGET_TEMPLATES "/light_passes.glsl");
+CANDELA_EMBED(candela_target_shadow_opacity, CANDELA_TARGET_TEMPLATES "/shadow_opacity.glsl");
 CANDELA_EMBED(candela_target_mirror, CANDELA_TARGET_TEMPLATES "/mirror.glsl");
 CANDELA_EMBED(candela_target_sample_offsets, CANDELA_TARGET_TEMPLATES "/sample_offsets.glsl");
 CANDELA_EMBED(candela_target_extended_light, CANDELA_TARGET_TEMPLATES "/extended_light.glsl");
@@ -238,21 +240,40 @@ class LightLoopWriter {
     std::string body_;
 };
 
+/// How shaders of objects without textures read those of opacities.
+std::string texture_of_shadows(const ExportedScene& scene) {
+    return "#ifndef TEXTURED\n" +
+           texture_functions(
+               scene, "uvec4 texel_of_unit(int unit, ivec2 at) { return uvec4(0u); }  // it has none\n") +
+           "#endif\n";
+}
+
+constexpr const char* k_blocked_part =
+    "    if (along < 0.0 || along > reach) return false;\n"
+    "    blocked_part = intBitsToFloat(tree_texel(triangle + 1).w);\n";
+constexpr const char* k_textured_blocked_part =
+    "    if (blocked_part < 0.0) blocked_part = textured_blocked_part(triangle, vec3(w, u, v) / whole);\n";
+
 /// The parts of the shadows' text for surfaces that light passes in part.
 Values passing_texts(const ExportedScene& scene) {
-    const bool passes = lets_light_through(scene);
+    const bool passes = lets_light_through(scene), is_textured = has_textured_shadows(scene);
     const auto if_passes = [&](const char* text, const char* otherwise = "") {
-        return passes ? text : otherwise;
+        return std::string(passes ? text : otherwise);
     };
     return {{"OPACITY_COMMENT", if_passes(" Of the second: the part of the light that it\n"
-                                          "// blocks, as bits of a float.")},
-            {"PASSING", if_passes(candela_target_light_passes)},
+                                          "// blocks, as bits of a float; below 0: a texture gives it.")},
+            {"PASSING", if_passes(candela_target_light_passes) +
+                            (is_textured ? texture_of_shadows(scene) + candela_target_shadow_opacity : "")},
             {"OWNS_EDGES",
              if_passes("    float whole = u + v + w;\n"
-                       "    if (opacity_of(triangle) < 1.0 && !(owns_edge(u, to_c, whole) && owns_edge(v, "
-                       "to_a, whole) && owns_edge(w, to_b, whole))) return false;\n")},
+                       "    bool is_owned = owns_edge(u, to_c, whole) && owns_edge(v, to_a, whole) && "
+                       "owns_edge(w, to_b, whole);\n"
+                       "    if (!is_owned && intBitsToFloat(tree_texel(triangle + 1).w) < 1.0) return "
+                       "false;\n")},
+            {"BLOCKED_PART", if_passes(k_blocked_part) + (is_textured ? k_textured_blocked_part : "")},
+            {"IS_MET", if_passes("blocked_part > 0.0", "along >= 0.0 && along <= reach")},
             {"LEFT", if_passes("    float left = 1.0;\n")},
-            {"BLOCKED", if_passes("left *= 1.0 - opacity_of(triangle);\n"
+            {"BLOCKED", if_passes("left *= 1.0 - blocked_part;\n"
                                   "            if (left <= 0.0) return 0.0;",
                                   "return 0.0;")},
             {"FREE", if_passes("left", "1.0")},

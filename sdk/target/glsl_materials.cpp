@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "candela/embed.h"
 #include "candela/target/files.h"
 #include "candela/target/glsl.h"
 #include "candela/target/literals.h"
+#include "candela/target/shadow_tree.h"
+#include "candela/target/text_template.h"
 #include "candela/target/textures.h"
+
+CANDELA_EMBED(candela_target_texture, CANDELA_TARGET_TEMPLATES "/texture.glsl");
 
 namespace candela::target {
 
@@ -166,10 +171,11 @@ std::vector<std::string> textured_opacities(const ExportedScene& scene) {
                 "coordinates, which shaders read only where light is evaluated for each fragment; use "
                 "shading \"phong\" for all objects",
                 object.label));
-        if (scene.has_shadows && object.casts_shadows && !all.back().empty())
+        if (scene.has_shadows && object.casts_shadows && takes_opacity_from_channels(object))
             throw std::runtime_error(fmt::format(
-                "a texture gives the opacity of object {}, which the shadows of shaders do not read; set "
-                "casts_shadows = false, or draw the scene with --no-shadows",
+                "the shadows of shaders do not read the opacity of object {}, which numbers of its "
+                "vertices give or a texture on second texture coordinates; set casts_shadows = "
+                "false, or draw the scene with --no-shadows",
                 object.label));
     }
     return all;
@@ -234,6 +240,19 @@ std::string material_units(const ExportedScene& scene) {
         "{}uvec4 texel_of_unit(int unit, ivec2 at) {{\n{}    return texelFetch(material_texels_0, at, "
         "0);\n}}\n",
         declarations, choices);
+}
+
+std::string texture_functions(const ExportedScene& scene, const std::string& units) {
+    const bool in_shadows = has_textured_shadows(scene);
+    return filled(
+               candela_target_texture,
+               {{"UNITS", units},
+                {"SHADOW_PICTURES", in_shadows ? "float shadow_picture_texel(int first, int number);\n" : ""},
+                {"SHADOW_PICTURE",
+                 in_shadows ? "    if (t.unit < 0) return vec3(shadow_picture_texel(-t.unit, y * t.width + "
+                              "x));  // of an opacity, among the shadows\n"
+                            : ""}}) +
+           std::string(texture_kernel()) + "\n";
 }
 
 }  // namespace candela::target

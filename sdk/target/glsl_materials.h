@@ -18,8 +18,8 @@ bool has_common_textures(const ExportedScene& scene);
 /// Declares own_emission and own_occlusion, of an object or a point, in a scene where objects have them.
 std::string common_material(const ExportedScene& scene);
 
-/// For each object, GlslParts::opacities. Throws std::runtime_error if one whose opacity a texture
-/// gives casts shadows.
+/// For each object, GlslParts::opacities. Throws std::runtime_error if one casts shadows whose
+/// opacity numbers of its vertices give, or a texture on second texture coordinates.
 std::vector<std::string> textured_opacities(const ExportedScene& scene);
 
 /// For each object, GlslParts::normal_maps.
@@ -28,5 +28,8 @@ std::vector<std::string> normal_map_texts(const ExportedScene& scene);
 /// The part of GlslParts::texture that reads the pictures of materials, which needs a member `unit` of
 /// ColorTexture; empty if no object has one.
 std::string material_units(const ExportedScene& scene);
+
+/// How shaders read textures; `units` declares texel_of_unit().
+std::string texture_functions(const ExportedScene& scene, const std::string& units);
 
 }  // namespace candela::target

@@ -167,6 +167,15 @@ bool lets_light_through(const ExportedScene& scene) {
            });
 }
 
+bool has_textured_shadow(const ExportedScene& scene, const ExportedObject& object) {
+    return scene.has_shadows && object.casts_shadows && !object.opacity_numbers.empty();
+}
+
+bool has_textured_shadows(const ExportedScene& scene) {
+    return std::ranges::any_of(
+        scene.objects, [&](const ExportedObject& object) { return has_textured_shadow(scene, object); });
+}
+
 ShadowTree shadow_tree(const ExportedScene& scene) {
     std::vector<Triangle> triangles;
     std::size_t all = 0;

@@ -1,4 +1,5 @@
 import { bytesOf, floatsOf, indicesOf } from "./arrays.js";
+import { opacityTexels, writeOpacity } from "./shadow_opacity.js";
 
 const integersOf = (name) => new Int32Array(bytesOf(name).buffer);
 
@@ -10,24 +11,30 @@ function blockedPart({ opacity = 1, opacity_cutoff = 0 }) {
 
 /**
  * The tree of boxes around the triangles that block light, as shaders read it: texels of four integers in rows of
- * `tree.width`, positions as bits of floats. First the nodes, whose boxes are found here, then the triangles.
+ * `tree.width`, positions as bits of floats. First the nodes, whose boxes are found here, then the triangles, then textures
+ * of opacity, which are among `textures`.
  */
-export function shadowTexels(tree, objects) {
+export function shadowTexels(tree, objects, textures, isSrgb) {
     const nodes = integersOf(tree.nodes), places = integersOf(tree.places), first = nodes.length;
-    const height = Math.ceil((first + 3 * tree.triangles) / tree.width);
+    let end = first + 3 * tree.triangles;
+    const height = Math.ceil(objects.reduce((sum, object) => sum + opacityTexels(object, textures), end) / tree.width);
     const integers = new Int32Array(4 * tree.width * height), floats = new Float32Array(integers.buffer);
     let number = 0;
     objects.forEach((object, i) => {
         const { mesh, is_solid } = object, blocked = blockedPart(object);
-        const positions = floatsOf(mesh.position), indices = indicesOf(mesh.indices);
+        const positions = floatsOf(mesh.position), indices = indicesOf(mesh.indices), triangles = [];
         for (let t = 0; t < indices.length; t += 3) {
             const place = places[number++];
+            triangles.push(place < 0 ? null : first + 3 * place);
             if (place < 0) continue;
-            const at = 4 * (first + 3 * place);
+            const at = 4 * triangles.at(-1);
             for (let k = 0; k < 9; ++k) floats[at + k + Math.floor(k / 3)] = positions[3 * indices[t + Math.floor(k / 3)] + (k % 3)];
             integers[at + 3] = 2 * i + (is_solid ? 1 : 0);
             floats[at + 7] = blocked;
         }
+        if (!object.shadow_opacity) return;
+        writeOpacity(integers, end, object, triangles, textures, isSrgb);
+        end += opacityTexels(object, textures);
     });
     // Children come after their parents. A node takes eight numbers, the corners of its box, each with a link.
     for (let node = first - 2; node >= 0; node -= 2) {

@@ -4,7 +4,7 @@ import { decodeColor } from "./colors.js";
 const ONE = 65535;  // an intensity of 1
 
 /** The texels of one of the scene's pictures: red, green, blue, and padding. */
-function texelsOf({ width, height, encoded, pixels }, isSrgb) {
+export function texelsOf({ width, height, encoded, pixels }, isSrgb) {
     const bytes = bytesOf(pixels), texels = new Uint16Array(4 * width * height);
     const intensities = Uint16Array.from({ length: 256 }, (_, byte) => Math.round(ONE * decodeColor([byte], isSrgb)[0]));
     for (let to = 0, from = 0; to < texels.length; to += 4) {

@@ -1,8 +1,11 @@
 #include "shadows.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "candela/embed.h"
 #include "candela/target/arrays.h"
@@ -10,6 +13,7 @@
 #include "candela/target/shadow_tree.h"
 
 CANDELA_EMBED(candela_opengl_shadows, CANDELA_SOURCE_DIR "/templates/shadows.cpp");
+CANDELA_EMBED(candela_opengl_shadow_opacity, CANDELA_SOURCE_DIR "/templates/shadow_opacity.cpp");
 
 namespace candela::opengl_target {
 
@@ -47,6 +51,26 @@ constexpr const char* k_shadow_opacity =
 constexpr const char* k_put_opacity =
     "            std::memcpy(&texels[at + 1][3], &opacity, sizeof(opacity));\n";
 
+constexpr const char* k_add_opacity =
+    "    for (const ShadowOpacity& one : k_shadow_opacities) add_textured_opacity(tree, one, texels);\n"
+    "    texels.resize((texels.size() + width - 1) / width * width);\n";
+
+std::string textured_opacities(const ExportedScene& scene) {
+    if (!has_textured_shadows(scene)) return "";
+    std::string text;
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+        if (!has_textured_shadow(scene, scene.objects[i])) continue;
+        const ExportedTexturedNumber& number = scene.objects[i].opacity_numbers.front();
+        std::vector<std::string> placing;
+        for (const float x : number.placing) placing.push_back(float_text(x));
+        text += fmt::format("    {{{}, {}, {}, {}, {}, {{{}}}, {}, {}}},\n", i, number.texture,
+                            number.texel_channel, static_cast<int>(number.wrap[0]),
+                            static_cast<int>(number.wrap[1]), fmt::join(placing, ", "),
+                            float_text(number.scale), float_text(number.offset));
+    }
+    return filled(candela_opengl_shadow_opacity, {{"OPACITIES", text}});
+}
+
 constexpr const char* k_struct = R"(
 // The tree of boxes around the triangles that block light, node by node, each before its children.
 struct ShadowTree {
@@ -72,9 +96,12 @@ Values shadow_values(const ExportedScene& scene) {
     if (scene.has_shadows) {
         const ShadowTree tree = shadow_tree(scene);
         const bool passes = lets_light_through(scene);
-        texture = filled(candela_opengl_shadows, {{"WIDTH", fmt::format("{}", k_shadow_tree_width)},
-                                                  {"SHADOW_OPACITY", passes ? k_shadow_opacity : ""},
-                                                  {"PUT_OPACITY", passes ? k_put_opacity : ""}});
+        texture =
+            filled(candela_opengl_shadows, {{"WIDTH", fmt::format("{}", k_shadow_tree_width)},
+                                            {"TEXTURED_OPACITY", textured_opacities(scene)},
+                                            {"ADD_OPACITY", has_textured_shadows(scene) ? k_add_opacity : ""},
+                                            {"SHADOW_OPACITY", passes ? k_shadow_opacity : ""},
+                                            {"PUT_OPACITY", passes ? k_put_opacity : ""}});
         arrays = arrays_of(tree);
         set_tree = fmt::format(
             "        set(program, {{\"shadow_tree\", Uniform::whole, {{5, 0, 0}}}});\n"

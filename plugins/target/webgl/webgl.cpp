@@ -239,6 +239,16 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         json["opacity"] = object.opacity;
         json["opacity_cutoff"] = object.opacity_cutoff;
     }
+    if (has_textured_shadow(scene, object)) {
+        const ExportedTexturedNumber& number = object.opacity_numbers.front();
+        json["shadow_opacity"] = {
+            {"texture", number.texture},
+            {"channel", number.texel_channel},
+            {"wraps", {static_cast<int>(number.wrap[0]), static_cast<int>(number.wrap[1])}},
+            {"placing", number.placing},
+            {"scale", number.scale},
+            {"offset", number.offset}};
+    }
     if (scene.has_shadows) {
         json["receives_shadows"] = object.receives_shadows;
         json["is_solid"] = mesh.is_solid;

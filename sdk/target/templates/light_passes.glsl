@@ -1,5 +1,6 @@
 
-float opacity_of(int triangle) { return intBitsToFloat(tree_texel(triangle + 1).w); }
+// The part of the light that a triangle blocks where a ray meets it.
+float blocked_part;
 
 // Of two triangles that share an edge, a ray through it meets the one that owns it, so that a surface which lets a part of the
 // light through counts once.

@@ -57,7 +57,8 @@ bool triangle_blocks(int triangle, vec3 from, vec3 direction, float reach, bool 
     float cosine = dot(normal, direction);  // times lengths
     if (cosine == 0.0 || is_let_through(first.w, cosine, is_below)) return false;
     float along = dot(normal, a) / cosine;
-    return along >= 0.0 && along <= reach;
+@BLOCKED_PART@
+    return @IS_MET@;
 }
 
 float free_part(vec3 from, vec3 direction, float reach, bool is_below) {

@@ -9,6 +9,7 @@ void set_sight(GLuint program, const Observer& observer, const View& view, int w
     set(program, {"pixel_up", Uniform::vector, pixel * view.top});
 }
 
+@TEXTURED_OPACITY@
 // The tree of the triangles that block light, as shaders read it: nodes, whose boxes are found here, then triangles.
 GLuint shadow_texture() {
     const ShadowTree tree = shadow_tree();
@@ -27,6 +28,7 @@ GLuint shadow_texture() {
 @PUT_OPACITY@
         }
     }
+@ADD_OPACITY@
     // Children come after their parents.
     std::vector<std::array<vec3, 2>> boxes(tree.nodes);
     for (std::size_t node = tree.nodes; node-- > 0;) {
@@ -53,5 +55,5 @@ GLuint shadow_texture() {
         texels[2 * node][3] = next;
         texels[2 * node + 1][3] = leaf;
     }
-    return data_texture(GL_RGBA32I, width, height, GL_RGBA_INTEGER, GL_INT, texels.data());
+    return data_texture(GL_RGBA32I, width, texels.size() / width, GL_RGBA_INTEGER, GL_INT, texels.data());
 }

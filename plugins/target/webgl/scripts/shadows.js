@@ -4,15 +4,16 @@ import { DataTexture } from "./data_texture.js";
 /** The triangles that block light and the boxes around them, on the GPU. */
 export class Shadows extends DataTexture {
     constructor(gl, scene) {
-        const { width } = scene.shadows, { height, texels } = shadowTexels(scene.shadows, scene.objects);
+        const { width } = scene.shadows, { height, texels } = shadowTexels(scene.shadows, scene.objects, scene.textures, scene.image.color_management === "srgb");
         super(gl, gl.RGBA32I, width, height, "This device's graphics do not have room for the shadows of this many triangles.");
         this.fill(gl.RGBA_INTEGER, gl.INT, texels);
         Object.assign(this, { margin: scene.shadows.least_margin, key: Shadows.keyOf(scene) });
     }
 
     /** Equal for scenes whose shadows are the same for a renderer. */
-    static keyOf({ shadows, objects }) {
-        return JSON.stringify([shadows, objects.map(({ mesh, is_solid, opacity, opacity_cutoff }) => [mesh.position, mesh.indices, is_solid, opacity, opacity_cutoff])]);
+    static keyOf({ shadows, objects, textures, image }) {
+        const opacityOf = ({ mesh, opacity, opacity_cutoff, shadow_opacity: use }) => [opacity, opacity_cutoff, ...(use ? [use, textures[use.texture], mesh.uv] : [])];
+        return JSON.stringify([shadows, image.color_management, objects.map((object) => [object.mesh.position, object.mesh.indices, object.is_solid, opacityOf(object)])]);
     }
 
     isOf(scene) {
