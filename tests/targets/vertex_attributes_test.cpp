@@ -128,9 +128,16 @@ TEST_CASE(
     for (const char* const target : {"cpp", "opengl", "webgl", "three"}) verify(placed, target);
 }
 
-TEST_CASE("verify: a C++ program has an opacity that the vertices give") {
+TEST_CASE("verify: programs have an opacity that the vertices give, in shaders where light is per fragment") {
     const fs::path folder = scratch_directory();
-    verify(scene(folder, objects("", "opacity = { attribute = \"color\", channel = \"a\" }\n")), "cpp");
+    const char* const k_opacity = "opacity = { attribute = \"color\", channel = \"a\" }\n";
+    const std::string every_rate = objects("", k_opacity);
+    const fs::path of_fragments = scene(folder, every_rate.substr(0, every_rate.find("[[object]]", 1)));
+    for (const char* const target : {"opengl", "webgl"}) verify(of_fragments, target);
+    const fs::path all = scene(folder, every_rate);
+    expect(run_candela({"generate", all.string(), "--target", "webgl", "-o", (folder / "page").string()}), 1,
+           {"the opacity of object phong depends on numbers of its vertices", "use shading \"phong\""});
+    verify(all, "cpp");
 }
 
 TEST_CASE("generate: programs of scenes without numbers of the vertices do not mention them") {
