@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesh_io/bad_file.h"
@@ -43,6 +44,12 @@ Json parsed(std::string_view text) {
         return json;
     } catch (const Json::parse_error& problem) {
         throw BadFile(fmt::format("is not valid JSON from byte {} on", problem.byte));
+    } catch (const Json::out_of_range& problem) {
+        // The library quotes the number at the end of its message.
+        constexpr std::size_t k_longest = 60;
+        const std::string_view message = problem.what();
+        throw BadFile(fmt::format("has a number beyond the range of doubles: {}",
+                                  message.substr(std::min(message.find('\''), message.size()), k_longest)));
     }
 }
 
