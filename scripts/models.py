@@ -68,6 +68,7 @@ LIGHTS = {
     "point": "position = [1.6, 2.2, 2.4]\nintensity = 12",
     "sky": "to_sun = [0.8, 0.5, 0.3]\nturbidity = 3\nsamples = 256\nbackground = true",
     "spot": "position = [1.6, 2.2, 2.4]\ndirection = [-1.6, -2.2, -2.4]\ninner_angle = 8\nouter_angle = 16\nintensity = 14",
+    "studio": "rotation = 20\nsamples = 256\nbackground = true",
 }
 MATERIALS = {
     "ashikhmin-shirley": "ks = 0.2\nexponent_u = 10\nexponent_v = 100",

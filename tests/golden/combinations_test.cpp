@@ -47,6 +47,7 @@ TEST_CASE("all lights x reflection models x shading models x shapes render witho
         "type = \"environment\"\n",
         "type = \"gradient\"\n",
         "type = \"sky\"\n",
+        "type = \"studio\"\n",
         "type = \"ies\"\nposition = [1, 1, 2]\ndirection = [-1, -1, -2]\nintensity = 5\n",
         "type = \"distributed\"\nposition = [1, 1, 2]\nintensity = 5\n",
         "type = \"directional\"\ndirection = [-1, -1, -2]\n",

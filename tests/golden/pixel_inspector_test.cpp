@@ -76,6 +76,7 @@ std::string scene_with(const std::string& reflection, const std::array<std::stri
            "[[light]]\ntype = \"environment\"\nintensity = 0.1\nsamples = 4\n"
            "[[light]]\ntype = \"sky\"\nintensity = 0.1\n"
            "[[light]]\ntype = \"gradient\"\nintensity = 0.1\n"
+           "[[light]]\ntype = \"studio\"\nintensity = 0.1\n"
            "[[light]]\ntype = \"ies\"\nposition = [1, 2, 2]\ndirection = [0, -1, 0]\nintensity = 2\n"
            "[[light]]\ntype = \"distributed\"\nposition = [0, 4, 2]\nintensity = 3\n"
            "[[object]]\ntype = \"sphere\"\nposition = [-1.1, 0, 0]\nshading = \"" +
