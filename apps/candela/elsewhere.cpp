@@ -42,8 +42,8 @@ int with_journal(const std::filesystem::path& /*file*/, const std::function<int(
 
 void expect_models() { throw Elsewhere(); }
 
-const std::string& scene_of_model(const std::string& /*file*/, bool /*allow_outside*/,
-                                  bool /*with_animation*/, candela::Registry& /*registry*/) {
+const std::string& scene_of_model(const std::string& /*file*/, const ModelOptions& /*options*/,
+                                  candela::Registry& /*registry*/) {
     throw Elsewhere();
 }
 

@@ -35,9 +35,10 @@ struct Imported {
 
 using File = GltfSquare;
 
-Imported import(File file) {
+/// In light whose pictures are easily compared, unless told otherwise.
+Imported import(File file, const std::string& option = " --plain") {
     const Folder folder({{"a.glb", file.glb()}});
-    Imported imported{folder.run("import a.glb"), "", ""};
+    Imported imported{folder.run("import a.glb" + option), "", ""};
     INFO(imported.result.err);
     REQUIRE(imported.result.exit_code == 0);
     imported.scene = folder.read("a.toml");
@@ -123,7 +124,8 @@ TEST_CASE("specular-glossiness materials keep their diffuse colour, reflectance 
     CHECK_FALSE(holds(imported.result.err, "KHR_materials_pbrSpecularGlossiness"));
 }
 
-TEST_CASE("unlit materials have their colour in the picture, under chosen lights and under the file's own") {
+TEST_CASE(
+    "unlit materials have their colour in the picture, under chosen lights, the studio and the file's own") {
     File file;
     file.json["extensionsUsed"] = {"KHR_materials_unlit"};
     file.material()["extensions"] = {{"KHR_materials_unlit", Json::object()}};
@@ -139,6 +141,7 @@ TEST_CASE("unlit materials have their colour in the picture, under chosen lights
     CHECK(holds(imported.scene, "model = \"unlit\""));
     CHECK(is_expected(imported.middle()));
     CHECK_FALSE(holds(imported.result.err, "KHR_materials_unlit"));
+    CHECK(is_expected(import(file, "").middle()));
     file.json["extensions"] = {{"KHR_lights_punctual", {{"lights", {{{"type", "directional"}}}}}}};
     file.json["nodes"].push_back({{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
     file.json["scenes"][0]["nodes"] = {0, 1};

@@ -214,6 +214,7 @@ void add_scene_options(CommandLine& line) {
         "shadows", "let objects block light; overrides the scene")(
         "no-shadows", "let no object block light; overrides the scene")(
         "allow-outside", "let a model name files outside its own folder, such as ../textures/wood.png")(
+        "plain", "light a model by a key light, a fill light and ambient light, without the studio")(
         "defaults", "if the scene names no shading or reflection model, use Phong without asking");
     add_plugin_options(line);
 }
@@ -273,8 +274,11 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
                         "to combine it with others",
                         file));
             const bool with_animation = models == Models::moving || line.has("frame");
-            request.streams.emplace(
-                file, scene_of_model(file, line.has("allow-outside"), with_animation, registry));
+            request.streams.emplace(file, scene_of_model(file,
+                                                         {.allow_outside = line.has("allow-outside"),
+                                                          .with_animation = with_animation,
+                                                          .with_studio = !line.has("plain")},
+                                                         registry));
         }
     }
     if (line.has("allow-outside") && !has_model(line))
@@ -282,6 +286,10 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
             ErrorCategory::bad_request,
             "--allow-outside applies to a model given instead of a scene; in a scene, give the object "
             "allow_outside = true");
+    if (line.has("plain") && !has_model(line))
+        throw Error(ErrorCategory::bad_request,
+                    "--plain applies to a model given instead of a scene; a scene has its own lights: remove "
+                    "its [[light]] of type \"studio\", or darken it with --set light.NAME.intensity=0");
     for (const char* const flag : {"width", "height", "samples"}) {
         if (!line.has(flag)) continue;
         request.settings.push_back(
@@ -320,7 +328,7 @@ std::vector<std::string> scene_words_from(const CommandLine& line) {
         for (const std::string& value : line.all(option))
             words.push_back(fmt::format("--{}={}", option, value));
     for (const char* const option :
-         {"shadows", "no-shadows", "defaults", "allow-outside", "allow-untrusted-plugins"})
+         {"shadows", "no-shadows", "defaults", "allow-outside", "plain", "allow-untrusted-plugins"})
         if (line.has(option)) words.push_back(fmt::format("--{}", option));
     return words;
 }

@@ -25,7 +25,7 @@ std::vector<std::shared_ptr<const void>>& triangles_of_models() {
 
 void expect_models() {}
 
-const std::string& scene_of_model(const std::string& file, bool allow_outside, bool with_animation,
+const std::string& scene_of_model(const std::string& file, const ModelOptions& options,
                                   candela::Registry& registry) {
     static std::map<std::string, std::string> known;
     static std::optional<TemporaryFolder> images;
@@ -33,8 +33,9 @@ const std::string& scene_of_model(const std::string& file, bool allow_outside, b
     if (!is_new) return scene->second;
     const importing::Imported imported = importing::import_model(
         {.file = file,
-         .allow_outside = allow_outside,
-         .with_animation = with_animation,
+         .allow_outside = options.allow_outside,
+         .with_animation = options.with_animation,
+         .with_studio = options.with_studio,
          .shown_file = std::filesystem::path(file).filename().string(),  // it is relative to itself
          .write_image =
              [&](const std::string& name, const std::string& content) {

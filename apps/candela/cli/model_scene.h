@@ -9,9 +9,16 @@ import candela.plugins;
 /// (cli/elsewhere.h), it does not return.
 void expect_models();
 
+/// How models are read.
+struct ModelOptions {
+    bool allow_outside = false;
+    bool with_animation = false;
+    bool with_studio = true;
+};
+
 /// The scene that shows a model. It is made once; so are the files of pictures embedded in the model, which
 /// live as long as the command. Reports what is lost.
-const std::string& scene_of_model(const std::string& file, bool allow_outside, bool with_animation,
+const std::string& scene_of_model(const std::string& file, const ModelOptions& options,
                                   candela::Registry& registry);
 
 /// Call this once the scene of a model has been compiled. Until then its triangles are kept, so that the file

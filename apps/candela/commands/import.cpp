@@ -80,7 +80,8 @@ int run_import(const std::vector<std::string>& arguments) {
         "up", po::value<std::string>()->value_name("AXIS"),
         "the axis that points up in the file: y or z; default: z in STL files, "
         "y in others")("allow-outside",
-                       "let the model name files outside its own folder, such as ../textures/wood.png");
+                       "let the model name files outside its own folder, such as ../textures/wood.png")(
+        "plain", "light a model by a key light, a fill light and ambient light, without the studio");
     add_plugin_options(line);
     if (!line.parse(arguments)) return 0;
     if (!line.has("file")) throw Error(ErrorCategory::bad_request, "candela import needs a model's file");
@@ -109,6 +110,7 @@ int run_import(const std::vector<std::string>& arguments) {
         {.file = file,
          .up = up_from(line),
          .allow_outside = line.has("allow-outside"),
+         .with_studio = !line.has("plain"),
          .shown_file = name_in(folder, file),
          .write_image =
              [&](const std::string& name, const std::string& content) {

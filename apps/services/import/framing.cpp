@@ -67,6 +67,25 @@ std::vector<Light> lights_for(const Camera& camera, double brightness) {
     return {key, fill, sky};
 }
 
+Light studio_for(const Camera& camera, double brightness) {
+    Light studio{.name = "studio", .type = "studio"};
+    studio.intensity = brightness;
+    const double degrees = std::atan2(-camera.towards[0], -camera.towards[2]) * 180 / std::numbers::pi;
+    studio.rotation = std::round(10 * degrees) / 10;
+    return studio;
+}
+
+std::vector<Light> studio_with_key_for(const Camera& camera, double brightness) {
+    std::vector<Light> lights = lights_for(camera, brightness);
+    std::erase_if(lights, [](const Light& light) { return light.name == "fill"; });
+    for (Light& light : lights) {
+        light.color = {255, 255, 255};
+        light.intensity = (light.type == "ambient" ? 0.3 : 0.5) * brightness;
+    }
+    lights.insert(lights.begin(), studio_for(camera, 0.5 * brightness));
+    return lights;
+}
+
 double exposure_for(const std::vector<Light>& lights, const Bounds& bounds) {
     double sum = 0;
     for (const Light& light : lights) {

@@ -22,6 +22,13 @@ Camera camera_for(const Bounds& bounds, double aspect);
 /// A key light over the observer's left shoulder, a weaker one from the right, and light from all around.
 std::vector<Light> lights_for(const Camera& camera, double brightness);
 
+/// The built-in studio, its front towards the observer.
+Light studio_for(const Camera& camera, double brightness);
+
+/// For surfaces with Phong's highlights, which hardly show light from everywhere: a dimmer studio, with a key
+/// light for the highlights and ambient light for the materials' own share of it.
+std::vector<Light> studio_with_key_for(const Camera& camera, double brightness);
+
 /// The factor by which an exposure multiplies the lights' luminances so that a white surface is neither black
 /// nor burnt out; 1 if it is neither without.
 double exposure_for(const std::vector<Light>& lights, const Bounds& bounds);

@@ -69,6 +69,9 @@ void Model::count(const std::string& kind, std::string one, std::string_view man
 
 namespace {
 
+/// Ambient light that shows only what is unlit, whose share of it is large.
+constexpr double k_for_unlit = 0.02;
+
 Model model_of(const Source& source, bool with_animation, candela::Registry& registry) {
     const std::string extension = candela::extension_of(source.file);
     if (extension == "obj") return read_obj(source, registry);
@@ -115,29 +118,50 @@ void move(Model& model, const Geometry& geometry) {
                            geometry.origin));
 }
 
+bool is_physical(const Model& model) {
+    return std::ranges::any_of(model.materials, [](const Material& material) {
+        return material.reflection == "metallic-roughness" || material.reflection == "specular-glossiness";
+    });
+}
+
+/// How much of the chosen lights a white surface of Phong's model reflects at most.
+struct Reach {
+    double direct, ambient;
+};
+
 /// The brightness of the chosen lights, such that the brightest surface facing them does not burn out.
-double brightness_for(const Model& model) {
+double brightness_for(const Model& model, Reach reach) {
     double brightest = 0;
-    bool is_physical = false;
     for (const Material& material : model.materials) {
-        is_physical = is_physical || material.reflection == "metallic-roughness" ||
-                      material.reflection == "specular-glossiness";
         // Bright spots of a picture are somewhat brighter than its mean.
         constexpr double k_spots = 1.3;
         const double image = material.color_map
                                  ? std::min(1.0, k_spots * model.images[material.color_map->image].brightness)
                                  : 1;
         double sum = 0;
-        // For the key light with most of the fill light, and for the ambient light.
-        constexpr double k_direct = 1.9, k_ambient = 0.6;
         for (const auto& [name, value] : material.values) {
-            const double factor = name == "kd" ? k_direct : name == "ka" ? k_ambient : 0;
+            const double factor = name == "kd" ? reach.direct : name == "ka" ? reach.ambient : 0;
             sum += factor * *std::ranges::max_element(value);
         }
         brightest = std::max(brightest, image * sum);
     }
-    if (is_physical) return 0.55;
     return brightest > 1 ? 1 / brightest : 1;
+}
+
+/// The lights of a model that has none.
+std::vector<Light> chosen_lights(const Model& model, const Camera& camera, bool with_studio) {
+    if (!with_studio) {
+        // The key light with most of the fill light.
+        const double brightness =
+            is_physical(model) ? 0.55 : brightness_for(model, {.direct = 1.9, .ambient = 0.6});
+        return lights_for(camera, brightness);
+    }
+    if (!is_physical(model))
+        return studio_with_key_for(camera, brightness_for(model, {.direct = 1, .ambient = 0.3}));
+    std::vector<Light> lights{studio_for(camera, 1)};
+    if (std::ranges::find(model.materials, "unlit", &Material::reflection) != model.materials.end())
+        lights.push_back({.name = "sky", .type = "ambient", .intensity = k_for_unlit});
+    return lights;
 }
 
 /// The exposure of a file's own lights. glTF-Sample-Viewer shows a luminance of 1 cd/m² as 1, unless its user
@@ -247,7 +271,7 @@ Imported import_model(const Request& request, candela::Registry& registry) {
     setting.lights = model.lights;
     double exposed = 1;
     if (setting.lights.empty()) {
-        setting.lights = lights_for(setting.camera, brightness_for(model));
+        setting.lights = chosen_lights(model, setting.camera, request.with_studio);
     } else {
         // Makes parts that the lights do not reach dark rather than black.
         constexpr double k_little = 0.08;

@@ -21,6 +21,7 @@ struct Request {
     UpAxis up = UpAxis::by_format;
     bool allow_outside = false;  // whether the model may name files outside its folder
     bool with_animation = true;  // otherwise it is shown at rest
+    bool with_studio = true;     // lights a model without lights; otherwise, a key and a fill light do
     /// The model's file name in the scene; may be relative to the scene's folder.
     std::string shown_file;
     /// Writes a picture embedded in the file to a place that the scene can read, and returns its name in the

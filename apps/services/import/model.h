@@ -131,12 +131,13 @@ struct Camera {
 
 struct Light {
     std::string name;
-    std::string type;  // point, spot, directional
+    std::string type;  // point, spot, directional; chosen ones also ambient, studio
     Vector color{255, 255, 255};
     double intensity = 1;      // in Candela's terms: at one metre, without 1 / pi
     bool is_physical = false;  // the file has it in candela or lux
     Vector position{}, direction{};
     double inner_angle = 0, outer_angle = 45;  // half angles, degrees
+    double rotation = 0;                       // of a studio, degrees
     std::shared_ptr<const Motion> motion{};
     std::vector<Track> tracks{};
 

@@ -164,10 +164,11 @@ class Writer {
         begin("[[light]]");
         light_names_.push_back(add_name(candela::printable(light.name)));
         add("type", candela::toml_text(light.type));
-        add("color", color(light.color));
+        if (light.type != "studio") add("color", color(light.color));
         add("intensity", light.is_physical ? fmt::format("\"{:.6g} {}\"", std::numbers::pi * light.intensity,
                                                          light.has_position() ? "cd" : "lx")
                                            : real(light.intensity));
+        if (light.type == "studio") add("rotation", real(light.rotation));
         if (light.has_position()) add("position", vector_text(light.position, setting_.tolerance));
         if (light.type == "directional" || light.type == "spot")
             add("direction", vector_text(direction(light.direction)));

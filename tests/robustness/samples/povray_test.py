@@ -182,7 +182,7 @@ def main():
             for file in (models / name).parent.glob(f"{Path(name).stem}.*"):
                 shutil.copy(file, folder)
             model = folder / Path(name).name
-            subprocess.run([candela, "import", model.name, "-o", "scene.toml"], cwd=folder, check=True, capture_output=True)
+            subprocess.run([candela, "import", model.name, "--plain", "-o", "scene.toml"], cwd=folder, check=True, capture_output=True)
             scene = tomllib.loads((folder / "scene.toml").read_text())
             other = drawn_by_povray(model, scene, options, brightness, folder)
             covered, share, difference = compared(drawn_by_candela(candela, scene, options, brightness, folder), other)
