@@ -67,7 +67,7 @@ TEST_CASE("explain lists the surfaces at a pixel, with what each covers") {
 
 TEST_CASE("targets without opacity draw opaque objects, if that is accepted") {
     const Folder d({{"dot.ppm", k_dot}});
-    for (const char* const target : {"three", "povray"}) {
+    for (const char* const target : {"three"}) {
         const std::string command = std::string("generate scene.toml -o out --target ") + target;
         const std::string left_out = "the opacity of object ball is left out";
         INFO(target);

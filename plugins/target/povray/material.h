@@ -12,6 +12,7 @@ namespace candela::povray_target {
 /// does near the outline of a coarse closed mesh. POV-Ray then turns it round and shows the interior texture,
 /// which is lit from behind: `turned`.
 struct Material {
+    std::string declarations{};  // before the object
     std::string front;
     std::string turned;
 };

@@ -15,6 +15,7 @@
 #include "candela/target/renderers.h"
 #include "lights.h"
 #include "material.h"
+#include "opacity.h"
 #include "shadows.h"
 #include "triangles.h"
 
@@ -71,14 +72,17 @@ class Statement {
 /// A texture for each colour that vertices of an object have, declared before its meshes.
 class VertexMaterials {
   public:
-    VertexMaterials(const ExportedScene& scene, std::size_t object, std::span<const Vec3> colors,
-                    FileSink& files) {
+    VertexMaterials(const ExportedScene& scene, std::size_t object, const Cover& cover,
+                    std::span<const Vec3> colors, FileSink& files) {
         for (const Vec3& color : colors) {
             const auto [found, is_new] = numbers_.try_emplace(key_of(color), names_.size());
             if (!is_new) continue;
             names_.push_back(fmt::format("Vertex_{}_{}", object, names_.size()));
-            fmt::format_to(std::back_inserter(declarations_), "#declare {} =\n{}", names_.back(),
-                           material_at_vertex(scene, object, color, files).front);
+            const Material material =
+                cover.over({.front = material_at_vertex(scene, object, color, files).front, .turned = {}},
+                           names_.back() + "_covering");
+            fmt::format_to(std::back_inserter(declarations_), "{}#declare {} =\n{}", material.declarations,
+                           names_.back(), material.front);
         }
     }
 
@@ -124,22 +128,25 @@ Vec3 mean_of(std::span<const Vec3> colors) {
 }
 
 /// A mesh with colours at its vertices.
-std::string colored_mesh_text(const ExportedScene& scene, std::size_t object, const std::string& name,
-                              Triangles triangles, const char* keywords, FileSink& files) {
-    const VertexMaterials colors(scene, object, triangles.colors, files);
+std::string colored_mesh_text(const ExportedScene& scene, std::size_t object, const Cover& cover,
+                              const std::string& name, Triangles triangles, const char* keywords,
+                              FileSink& files) {
+    const VertexMaterials colors(scene, object, cover, triangles.colors, files);
     Triangles outline;
     if (!triangles.normals.empty()) outline = split_off_outline(triangles, scene.observer);
     std::string text = colors.declarations() + mesh2_text(name, std::move(triangles), keywords, &colors);
     if (outline.indices.empty()) return text;
     files.approximate("near the outline of an object, the colours at its vertices may be their mean");
-    const Material mean = material_at_vertex(scene, object, mean_of(outline.colors), files);
-    return text + mesh2_text(name + ", its triangles at the outline, as the observer sees them",
-                             std::move(outline), mean.front + mean.turned + keywords, &colors);
+    const Material mean = cover.over(material_at_vertex(scene, object, mean_of(outline.colors), files),
+                                     fmt::format("Covering_{}", object));
+    return text + mean.declarations +
+           mesh2_text(name + ", its triangles at the outline, as the observer sees them", std::move(outline),
+                      mean.front + mean.turned + keywords, &colors);
 }
 
 /// The visible surface of an object. `keywords`: at the end of its statements.
 std::string visible_text(const ExportedScene& scene, std::size_t index, const ExportedMesh& mesh,
-                         const std::string& name, const char* keywords, FileSink& files) {
+                         const Cover& cover, const std::string& name, const char* keywords, FileSink& files) {
     const ExportedObject& object = scene.objects[index];
     const ExportedShading& shading = scene.shadings[object.shading];
     target::approximate_shading(shading, files);
@@ -147,22 +154,25 @@ std::string visible_text(const ExportedScene& scene, std::size_t index, const Ex
     if (is_textured && mesh.color)
         files.approximate("the colours at the vertices of objects with a texture are left out");
     const bool has_faces = shading.rate == ShadingRate::face;
-    Triangles triangles = triangles_of(
-        mesh, has_faces ? ConstVec3Span{} : mesh.normals[mesh.normals_of[object.shading]], is_textured);
+    Triangles triangles =
+        triangles_of(mesh, has_faces ? ConstVec3Span{} : mesh.normals[mesh.normals_of[object.shading]],
+                     is_textured || cover.has_texture());
     if (!triangles.colors.empty())
-        return colored_mesh_text(scene, index, name, std::move(triangles), keywords, files);
-    const Material material = material_of(scene, index, files);
-    if (has_faces) return mesh2_text(name, std::move(triangles), material.front + keywords);
+        return colored_mesh_text(scene, index, cover, name, std::move(triangles), keywords, files);
+    const Material material = cover.over(material_of(scene, index, files), fmt::format("Covering_{}", index));
+    if (has_faces)
+        return material.declarations + mesh2_text(name, std::move(triangles), material.front + keywords);
     if (mesh.closed)
-        return mesh2_text(name, std::move(triangles), material.front + material.turned + keywords);
+        return material.declarations +
+               mesh2_text(name, std::move(triangles), material.front + material.turned + keywords);
     Triangles outline = split_off_outline(triangles, scene.observer);
-    return mesh2_text(name, std::move(triangles), material.front + keywords) +
+    return material.declarations + mesh2_text(name, std::move(triangles), material.front + keywords) +
            mesh2_text(name + ", its triangles at the outline, as the observer sees them", std::move(outline),
                       material.front + material.turned + keywords);
 }
 
-Triangles blocking_triangles(const ExportedMesh& mesh) {
-    Triangles triangles = triangles_of(mesh, {}, false);
+Triangles blocking_triangles(const ExportedMesh& mesh, const Cover& cover) {
+    Triangles triangles = triangles_of(mesh, {}, cover.has_texture());
     triangles.colors.clear();
     return triangles;
 }
@@ -170,12 +180,14 @@ Triangles blocking_triangles(const ExportedMesh& mesh) {
 /// The triangles of an object as they block light, without being seen. The texture of the side on which a
 /// shadow ray meets a surface stops it, or lets it pass: light leaves a solid object. POV-Ray looks at that
 /// only if the outer texture is not quite opaque.
-std::string blocker_text(const ExportedMesh& mesh, const std::string& name) {
-    const char* const textures = mesh.is_solid ? "    texture { pigment { rgb 0 transmit 1e-9 } }\n"
-                                                 "    interior_texture { pigment { rgbt 1 } }\n"
-                                               : "    texture { pigment { rgb 0 } }\n";
-    return mesh2_text(name + ", as it blocks light", blocking_triangles(mesh),
-                      std::string(textures) + "    no_image no_reflection\n");
+std::string blocker_text(const ExportedMesh& mesh, const Cover& cover, const std::string& name) {
+    const std::string opaque = "pigment { rgb 0 }";
+    const std::string textures =
+        mesh.is_solid ? "    texture { pigment { rgb 0 transmit 1e-9 } }\n"
+                        "    interior_texture { pigment { rgbt 1 } }\n"
+                      : "    texture { " + (cover.is_opaque() ? opaque : cover.over(opaque)) + " }\n";
+    return mesh2_text(name + ", as it blocks light", blocking_triangles(mesh, cover),
+                      textures + "    no_image no_reflection\n");
 }
 
 /// The visible surface of an object, in a group with the lights that nothing blocks.
@@ -197,13 +209,15 @@ std::string mesh_text(const ExportedScene& scene, std::size_t index, FileSink& f
     const ExportedMesh mesh = scene.geometry->in_world_space(index);
     const std::string name = fmt::format("{}: {}", target::ascii_identifier(object.label),
                                          target::ascii_identifier(object.shape.plugin->name));
-    if (!scene.has_shadows) return visible_text(scene, index, mesh, name, "    no_shadow\n", files);
+    const Cover cover(scene, index, files);
+    if (!scene.has_shadows) return visible_text(scene, index, mesh, cover, name, "    no_shadow\n", files);
     approximate_shadows(scene, index, mesh, files);
     const bool is_grouped = has_unblocked_lights(scene, object);
     const bool blocks_itself = object.casts_shadows && !mesh.is_solid && !is_grouped;
-    std::string text = visible_text(scene, index, mesh, name, blocks_itself ? "" : "    no_shadow\n", files);
+    std::string text =
+        visible_text(scene, index, mesh, cover, name, blocks_itself ? "" : "    no_shadow\n", files);
     if (is_grouped) text = group_text(scene, index, mesh, text, files);
-    return object.casts_shadows && !blocks_itself ? text + blocker_text(mesh, name) : text;
+    return object.casts_shadows && !blocks_itself ? text + blocker_text(mesh, cover, name) : text;
 }
 
 }  // namespace candela::povray_target

@@ -49,7 +49,28 @@ std::string transform_text(const float (&placing)[6], FileSink& files) {
                        -(a_i * u + b_i * v), -(c_i * u + d_i * v));
 }
 
+/// Declares in what POV-Ray's lookups of that picture differ.
+void approximate_lookups(const ExportedTexturedNumber& number, FileSink& files) {
+    files.approximate("textures are seen bilinear, without averaging over a pixel's area");
+    for (const ExportedWrap wrap : number.wrap) {
+        if (wrap == ExportedWrap::clamp)
+            files.approximate("textures that are clamped at their edges are repeated");
+        if (wrap == ExportedWrap::mirror)
+            files.approximate("textures that are mirrored at their edges are repeated as they are");
+    }
+}
+
 }  // namespace
+
+std::string image_map_of(const ExportedScene& scene, const ExportedTexturedNumber& number,
+                         const std::string& name, FileSink& files) {
+    approximate_lookups(number, files);
+    const std::array grey{number, number, number};
+    target::write(files, name.c_str(),
+                  target::ppm_of(image_of(scene.textures[number.texture].levels.front(), grey, {1, 1, 1})));
+    return fmt::format("image_map {{ ppm \"{}\" gamma {} interpolate 2 }}{}", name, gamma_text(scene),
+                       transform_text(number.placing, files));
+}
 
 const char* gamma_text(const ExportedScene& scene) {
     return scene.image.color_management == ColorEncoding::srgb ? "1" : "srgb";
@@ -60,14 +81,8 @@ Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, c
     const ExportedObject& of = scene.objects[object];
     const float factor = std::max({color.x, color.y, color.z});
     if (of.color_numbers.empty() || factor <= 0) return {rgb_text(color), 1};
-    files.approximate("textures are seen bilinear, without averaging over a pixel's area");
     const ExportedTexturedNumber& placed = of.color_numbers.front();
-    for (const ExportedWrap wrap : placed.wrap) {
-        if (wrap == ExportedWrap::clamp)
-            files.approximate("textures that are clamped at their edges are repeated");
-        if (wrap == ExportedWrap::mirror)
-            files.approximate("textures that are mirrored at their edges are repeated as they are");
-    }
+    approximate_lookups(placed, files);
     const std::string name = fmt::format("texture_{}{}.ppm", object, suffix);
     const ExportedTextureLevel& picture = scene.textures[placed.texture].levels.front();
     target::write(files, name.c_str(),

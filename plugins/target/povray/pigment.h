@@ -19,6 +19,10 @@ struct Pigment {
 Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, const char* suffix,
                    FileSink& files);
 
+/// A picture of a number, for a pigment in place of a colour; it is written to that file.
+std::string image_map_of(const ExportedScene& scene, const ExportedTexturedNumber& number,
+                         const std::string& name, FileSink& files);
+
 /// POV-Ray's name for the transfer function of the scene's intensities.
 const char* gamma_text(const ExportedScene& scene);
 

@@ -21,6 +21,7 @@
 #include "candela/target_plugin.h"
 #include "lights.h"
 #include "meshes.h"
+#include "opacity.h"
 #include "pigment.h"
 #include "shadows.h"
 #include "text.h"
@@ -60,6 +61,7 @@ std::string scene_text(const ExportedScene& scene, FileSink& files) {
                                                  {"VERSION", CANDELA_PLUGIN_VERSION},
                                                  {"GAMMA", gamma_text(scene)},
                                                  {"AMBIENT", rgb_text(ambient_of(scene))},
+                                                 {"TRACE_LEVEL", trace_level_text(scene)},
                                                  {"BACKGROUND", rgb_text({color.r, color.g, color.b})},
                                                  {"CAMERA", camera_text(scene)},
                                                  {"LIGHTS", lights_text(scene, files)},
@@ -98,6 +100,7 @@ class PovRayTarget final : public Target {
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,
+                .opacity = true,
                 .shadows = true};
     }
     const char* main_file() const noexcept override { return "scene.pov"; }

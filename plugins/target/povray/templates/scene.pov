@@ -9,6 +9,7 @@ global_settings {
     assumed_gamma @GAMMA@
     ambient_light @AMBIENT@
     adc_bailout 0
+@TRACE_LEVEL@
 }
 
 background { @BACKGROUND@ }
