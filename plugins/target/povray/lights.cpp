@@ -61,7 +61,8 @@ std::string cone_of(const PunctualLight& light, const std::string& model, FileSi
 /// `keywords`: at the end of the statement.
 std::string light_text(const ExportedScene& scene, const PunctualLight& light, const std::string& model,
                        const std::string& keywords, FileSink& files) {
-    const Rgb color = light.diffuse;
+    // POV-Ray has no exposure, and light adds up: exposing its sources exposes the picture.
+    const Rgb color = scene.image.exposure * light.diffuse;
     if (!(light.diffuse == light.specular))
         files.approximate(fmt::format("{} has highlights of its diffuse light's colour", model).c_str());
     const std::string rgb = rgb_text({color.r, color.g, color.b});
@@ -84,7 +85,7 @@ Vec3 ambient_of(const ExportedScene& scene) {
     Vec3 sum{};
     for (const ExportedLight& light : scene.lights)
         sum = sum + Vec3{light.ambient.r, light.ambient.g, light.ambient.b};
-    return sum;
+    return scene.image.exposure * sum;
 }
 
 std::string lights_text(const ExportedScene& scene, FileSink& files) {

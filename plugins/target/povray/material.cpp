@@ -123,7 +123,7 @@ Surface surface_of(const ExportedScene& scene, const ExportedObject& object, Vec
         surface.diffuse = 1;
         surface.ambient = over(surface.ambient, share);
     }
-    const Rgb emission = target::emission_of(object, scene.image.color_management);
+    const Rgb emission = scene.image.exposure * target::emission_of(object, scene.image.color_management);
     if (emission != Rgb{}) {
         if (!object.color_numbers.empty())
             throw std::runtime_error(fmt::format(

@@ -101,12 +101,17 @@ class PovRayTarget final : public Target {
                 .emission = true,
                 .occlusion = true,
                 .opacity = true,
-                .shadows = true};
+                .shadows = true,
+                .display = true};
     }
     const char* main_file() const noexcept override { return "scene.pov"; }
     bool can_draw() const noexcept override { return true; }
 
     void write(const ExportedScene& scene, FileSink& files) const override {
+        if (scene.image.tone != ToneCurve::none)
+            throw std::runtime_error(
+                "[image] tone: POV-Ray shows intensities as they are, without a tone curve; --tone none "
+                "leaves it out");
         const target::MeanMaterials means(scene, files);
         for (const ExportedObject& object : scene.objects) {
             if (object.normal_map == nullptr) continue;

@@ -471,3 +471,26 @@ shading = "flat"
     }
     CHECK(holds(refused.err, "--approximate"));
 }
+
+TEST_CASE("target/povray: light, ambient light and emission are exposed, the background is not") {
+    // 1/(1.2 * 2^EV) = 1/1000.
+    const std::string view =
+        "observer = {position = [0, 0, 4], look_at = [0, 0, 0], exposure = 9.7027499}\n"
+        "reflection = {model = \"phong\"}\n"
+        "[[light]]\ntype = \"ambient\"\nintensity = 100\n"
+        "[[light]]\ntype = \"directional\"\ndirection = [0, 0, -1]\nintensity = 200\n";
+    const Folder folder({{"wall.obj", "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n"}});
+    const std::string image = "image = {width = 9, height = 9, color_management = \"none\"}\n";
+    CHECK(drawn_in_the_middle(
+              folder, k_head + image + view +
+                          "[[object]]\ntype = \"mesh\"\nfile = \"wall.obj\"\ncolor = [255, 255, 255]\n"
+                          "[object.material]\nka = 0.5\nkd = 0.6\nks = 0\nemission = [255, 0, 0]\n"
+                          "emission_strength = 150\n") == levels(0.05 + 0.12 + 0.15, 0.17, 0.17));
+    const CommandResult same =
+        verify(folder, k_head + "image = {width = 96, height = 72, background = [51, 102, 204]}\n" + view +
+                           "[[light]]\ntype = \"point\"\nposition = [0.3, 0.5, 3]\nintensity = 900\n"
+                           "[[object]]\ntype = \"sphere\"\nradius = 0.8\nsegments = 64\n"
+                           "[object.material]\nks = 0.3\nemission = [255, 0, 0]\nemission_strength = 150\n");
+    INFO(same.out << same.err);
+    CHECK(same.exit_code == 0);
+}
