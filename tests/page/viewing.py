@@ -115,6 +115,19 @@ class Viewing(unittest.TestCase):
         self.assert_shows()
         self.assertEqual(self.browser.errors(), [])
 
+    def test_objects_become_see_through_and_opaque_again(self):
+        """Films for scenes with layers are of another kind."""
+        self.view()
+        self.wait_until_shown(1)
+        self.browser.wait_for_pictures()
+        for generation, (old, new) in enumerate((("kd = 0.6\n", "kd = 0.6\nopacity = 0.5\n"), ("opacity = 0.5\n", "")), start=2):
+            self.changed(old, new)
+            self.wait_until_shown(generation)
+            self.browser.wait_for_pictures()
+            self.assertIsNone(self.browser.problem())
+            self.assert_shows()
+        self.assertEqual(self.browser.errors(), [])
+
     def scene_color(self):
         text = self.file.read_text()
         object_at = text.index("[[object]]")
