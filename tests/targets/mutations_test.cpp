@@ -136,7 +136,7 @@ light = [
 object = [
     {name = "floor", type = "mesh", file = "floor.obj", color = {texture = "picture.ppm"}},
     {name = "ball", type = "sphere", radius = 0.8, position = [0, 0.3, 0], color = {texture = "picture.ppm"}},
-    {name = "wall", type = "mesh", file = "floor.obj", color = {texture = "picture.ppm", wrap = "clamp"}, rotation = [90, 0, 0], scale = [0.2, 0.2, 0.2], position = [0, -0.3, -2.5]},
+    {name = "wall", type = "mesh", file = "floor.obj", color = {texture = "picture.ppm", wrap = "clamp", wrap_v = "mirror"}, rotation = [90, 0, 0], scale = [0.2, 0.2, 0.2], position = [0, -0.3, -2.5]},
 ]
 )";
 constexpr const char* k_floor =
@@ -168,9 +168,10 @@ constexpr std::array k_texture_mutations = {
     std::pair{"the shorter side of a footprint decides",
               Edit{"max(dot(a, a), dot(b, b))", "min(dot(a, a), dot(b, b))"}},
     std::pair{"levels are not blended", Edit{"wanted - floor(wanted))", "0.0f)"}},
-    std::pair{"nothing repeats", Edit{"wrap == 0 ? repeated", "wrap == 0 ? x"}},
+    std::pair{"nothing repeats", Edit{"wrap == 0 ? repeated", "wrap == 0 ? x + min(repeated, 0.0f)"}},
     std::pair{"nothing is clamped", Edit{"(wrap == 1 ? x : mirrored)", "(wrap == 1 ? repeated : mirrored)"}},
-    std::pair{"nothing is mirrored", Edit{"(wrap == 1 ? x : mirrored)", "(wrap == 1 ? x : repeated)"}},
+    std::pair{"nothing is mirrored",
+              Edit{"(wrap == 1 ? x : mirrored)", "(wrap == 1 ? x : repeated + min(mirrored, 0.0f))"}},
     std::pair{"u decides how v continues",
               Edit{"color_texture_wrapped(uv.y, t.wrap_v)", "color_texture_wrapped(uv.y, t.wrap_u)"}},
     std::pair{"pictures are upside down", Edit{"(1.0f - color_texture_wrapped(uv.y, t.wrap_v))",
@@ -308,11 +309,11 @@ TEST_CASE("verify: fifteen faults of a page are caught") {
     expect_all_caught("webgl", "scene.html", &Mutation::webgl);
 }
 
-TEST_CASE("verify: eight faults of the textures of an OpenGL program are caught") {
+TEST_CASE("verify: ten faults of the textures of an OpenGL program are caught") {
     expect_all_caught_of_textures("opengl", "scene.cpp");
 }
 
-TEST_CASE("verify: eight faults of the textures of a page are caught") {
+TEST_CASE("verify: ten faults of the textures of a page are caught") {
     expect_all_caught_of_textures("webgl", "scene.html");
 }
 #else
@@ -320,7 +321,7 @@ TEST_CASE("verify: fifteen faults of a C++ program are caught") {
     expect_all_caught("cpp", "scene.cpp", &Mutation::cpp);
 }
 
-TEST_CASE("verify: eight faults of the textures of a C++ program are caught") {
+TEST_CASE("verify: ten faults of the textures of a C++ program are caught") {
     expect_all_caught_of_textures("cpp", "scene.cpp");
 }
 
