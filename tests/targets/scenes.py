@@ -166,9 +166,14 @@ def value_text(parameter, chance):
     return str(round(value)) if parameter["type"] == "integer" else f"{value:.3f}"
 
 
+# Of scenes in which a teapot's lid would cross its body at so small an angle that the sixteenth of a pixel to which a rasteriser rounds
+# vertices decides over whole pixels which of the two is nearer.
+OTHER_SEEDS = {13: 113}
+
+
 def scene_text(catalogue, choices, number):
     """The TOML of a scene; it needs icosahedron.obj (OBJ) next to it."""
-    chance = random.Random(number)
+    chance = random.Random(OTHER_SEEDS.get(number, number))
     frame = choices["frame"]
     size = "fov = 47" if frame["projection"] == "perspective" else "height = 4.4"
     text = (f'version = 1\n[observer]\nposition = [{chance.uniform(-1, 1):.2f}, 1.6, 4.7]\nlook_at = [0, 0, 0]\n'
