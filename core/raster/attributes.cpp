@@ -103,8 +103,9 @@ void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds need
     if (needs.triangle) repeat_corners(mesh, vertices, first, count, points);
 }
 
-void allocate_channels(const Mesh& mesh, SurfacePoints& points) {
-    while (points.channels.size() < mesh.channels.size())
+void take_channels(const Mesh& mesh, PointNeeds& needs, SurfacePoints& points) {
+    needs.channels = needs.channels && !mesh.channels.empty();
+    while (needs.channels && points.channels.size() < mesh.channels.size())
         points.channels.emplace_back(k_batch_size + k_lanes);
 }
 

@@ -294,8 +294,7 @@ void gather_fragments(const ProjectedMesh& source, const FragmentBatch& batch, P
         clear_uv(points);
         needs.uv = false;
     }
-    needs.channels = needs.channels && !source.mesh.channels.empty();
-    if (needs.channels) allocate_channels(source.mesh, points);
+    take_channels(source.mesh, needs, points);
     const bool is_faceted = source.mesh.is_faceted && needs.vertex_normal;
     needs.face_normal = needs.face_normal || is_faceted;
     const PixelPositions positions(batch);

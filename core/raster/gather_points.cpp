@@ -28,12 +28,6 @@ void clear_footprint(SurfacePoints& points) {
     for (AlignedVector<float>& array : points.second_footprint) std::ranges::fill(array, 0.0f);
 }
 
-/// Needs channels only of a mesh that has them, and makes room for these.
-void take_channels(const Mesh& mesh, PointNeeds& needs, SurfacePoints& points) {
-    needs.channels = needs.channels && !mesh.channels.empty();
-    if (needs.channels) allocate_channels(mesh, points);
-}
-
 /// Pads a batch that was assembled point by point with its last point.
 void fill_up(PointNeeds needs, SurfacePoints& points) {
     points.filled = whole_vectors(points.count);

@@ -27,8 +27,8 @@ inline Indices corners_of(const Mesh& mesh, std::uint32_t triangle) {
 void blend_attributes(const Mesh& mesh, const Indices& vertices, PointNeeds needs, std::size_t first,
                       std::size_t count, SurfacePoints& points);
 
-/// Makes room for the mesh's channels.
-void allocate_channels(const Mesh& mesh, SurfacePoints& points);
+/// Needs channels only of a mesh that has them, and makes room for these.
+void take_channels(const Mesh& mesh, PointNeeds& needs, SurfacePoints& points);
 
 /// Computes the mesh's channels from number `channel` on.
 void blend_channels(const Mesh& mesh, const Indices& vertices, std::size_t channel, std::size_t first,
