@@ -6,9 +6,20 @@ import zlib
 from evaluator import linear, mixed
 
 
+PNG_BEGIN = b"\x89PNG\r\n\x1a\n"
+
+
+def chunk(name: bytes, data: bytes) -> bytes:
+    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+
+
+def png_header(width: int, height: int, depth: int = 8, kind: int = 2) -> bytes:
+    """`kind`: the colour type."""
+    return chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, kind, 0, 0, 0))
+
+
 def png(width, height, depth, kind, rows, more=()):
     """`rows` of samples; `kind` is the colour type, `more` chunks before the data."""
-    chunk = lambda name, data: struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
     data = b""
     for row in rows:
         data += b"\0"
@@ -18,7 +29,7 @@ def png(width, height, depth, kind, rows, more=()):
             data += bytes(int(bits[i:i + 8], 2) for i in range(0, len(bits), 8))
         else:
             data += struct.pack(f">{len(row)}{'B' if depth == 8 else 'H'}", *row)
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, kind, 0, 0, 0)) +
+    return (PNG_BEGIN + png_header(width, height, depth, kind) +
             b"".join(chunk(*each) for each in more) + chunk(b"IDAT", zlib.compress(data)) + chunk(b"IEND", b""))
 
 

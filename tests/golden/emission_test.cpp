@@ -46,20 +46,6 @@ std::filesystem::path folder_with_files() {
 
 Image rendered(const Setup& setup) { return render_floats(folder_with_files(), scene(setup)); }
 
-template <class Expected>
-void require_pixels(const Image& image, Expected expected) {
-    for (int y = 0; y < k_size; ++y) {
-        for (int x = 0; x < k_size; ++x) {
-            const std::array<double, 3> at = expected(x, y);
-            const auto pixel = image.at(x, y);
-            INFO("pixel " << x << ", " << y << ": " << pixel.x << ' ' << pixel.y << ' ' << pixel.z);
-            REQUIRE(std::abs(static_cast<double>(pixel.x) - at[0]) < 3e-4);
-            REQUIRE(std::abs(static_cast<double>(pixel.y) - at[1]) < 3e-4);
-            REQUIRE(std::abs(static_cast<double>(pixel.z) - at[2]) < 3e-4);
-        }
-    }
-}
-
 std::array<double, 3> grey(double value) { return {value, value, value}; }
 
 }  // namespace
@@ -70,11 +56,11 @@ TEST_CASE("golden: emission is added once to what a surface reflects, whatever t
     const auto expected = [](double reflected) {
         return [=](int, int) { return std::array{reflected + 0.1, reflected + 0.2, reflected + 0.5}; };
     };
-    require_pixels(rendered({.material = material, .lights = ""}), expected(0));
-    require_pixels(rendered({.material = material}), expected(0.25));
-    require_pixels(rendered({.material = material, .lights = std::string(k_sun) + k_ambient}),
+    require_texels(rendered({.material = material, .lights = ""}), expected(0));
+    require_texels(rendered({.material = material}), expected(0.25));
+    require_texels(rendered({.material = material, .lights = std::string(k_sun) + k_ambient}),
                    expected(0.25));
-    require_pixels(
+    require_texels(
         rendered({.material = material + "\n",
                   .lights = std::string(k_sun) + "[[light]]\ntype = \"directional\"\ndirection = "
                                                  "[0, 0, -1]\n[[light]]\ntype = \"point\"\nposition "
@@ -82,13 +68,13 @@ TEST_CASE("golden: emission is added once to what a surface reflects, whatever t
         expected(0.5));
     SECTION("with every shading model and any reflection model") {
         for (const char* const shading : {"flat", "gouraud", "phong"})
-            require_pixels(rendered({.material = material, .shading = shading}), expected(0.25));
+            require_texels(rendered({.material = material, .shading = shading}), expected(0.25));
         // Phong's specular coefficient, where R = V.
-        require_pixels(rendered({.material = "kd = 0.2\nks = 0.3\nemission = [51, 102, 255]\n"
+        require_texels(rendered({.material = "kd = 0.2\nks = 0.3\nemission = [51, 102, 255]\n"
                                              "emission_strength = 0.5",
                                  .reflection = "phong"}),
                        expected(0.5));
-        require_pixels(rendered({.material = "emission = [51, 102, 255]\nemission_strength = 0.5",
+        require_texels(rendered({.material = "emission = [51, 102, 255]\nemission_strength = 0.5",
                                  .lights = k_ambient,
                                  .reflection = "unlit"}),
                        expected(0.5));
@@ -96,10 +82,10 @@ TEST_CASE("golden: emission is added once to what a surface reflects, whatever t
 }
 
 TEST_CASE("golden: an emission is a colour, and its strength may exceed 1") {
-    require_pixels(rendered({.material = "ka = 0\nkd = 0\nemission = [128, 0, 255]\nemission_strength = 40",
+    require_texels(rendered({.material = "ka = 0\nkd = 0\nemission = [128, 0, 255]\nemission_strength = 40",
                              .encoding = "srgb"}),
                    [](int, int) { return std::array{40 * decoded(128.0 / 255), 0.0, 40.0}; });
-    require_pixels(
+    require_texels(
         rendered({.material = "ka = 0\nkd = 0.5\nemission = [128, 0, 255]\nemission_strength = 0"}),
         [](int, int) { return grey(0.5); });
 }
@@ -111,19 +97,19 @@ TEST_CASE("golden: an emission may be a texture, decoded like a colour unless to
                                      texture + " }",
                          .encoding = encoding});
     };
-    require_pixels(with("", "srgb"), [](int x, int y) {
+    require_texels(with("", "srgb"), [](int x, int y) {
         return std::array{0.25 + 2 * decoded(red(x)), 0.25 + 2 * decoded(green(y)),
                           0.25 + 2 * decoded(k_blue)};
     });
-    require_pixels(with("", "none"), [](int x, int y) {
+    require_texels(with("", "none"), [](int x, int y) {
         return std::array{0.25 + 2 * red(x), 0.25 + 2 * green(y), 0.25 + 2 * k_blue};
     });
-    require_pixels(with(", encoding = \"linear\", scale = [1, 0.5, 4], offset = [0, 0.25, 0]", "srgb"),
+    require_texels(with(", encoding = \"linear\", scale = [1, 0.5, 4], offset = [0, 0.25, 0]", "srgb"),
                    [](int x, int y) {
                        return std::array{0.25 + 2 * red(x), 0.25 + 2 * (0.25 + 0.5 * green(y)),
                                          0.25 + 2 * 1.0};
                    });
-    require_pixels(with(", channel = \"g\", transform = { offset = [0.25, 0.125] }", "srgb"),
+    require_texels(with(", channel = \"g\", transform = { offset = [0.25, 0.125] }", "srgb"),
                    [](int, int y) { return grey(0.25 + 2 * green((y + k_size - 1) % k_size)); });
 }
 
@@ -132,7 +118,7 @@ TEST_CASE("golden: what a surface emits lights nothing else, and no shadow falls
         "[[object]]\nname = \"lamp\"\ntype = \"sphere\"\nradius = 0.3\nposition = [0, 0, 4.6]\n"
         "[object.material]\nemission = [255, 255, 255]\nemission_strength = 1000\n[shadows]\nenabled = "
         "true\n";
-    require_pixels(rendered({.material = "ka = 0\nkd = 0.5", .lights = "", .more = wall}),
+    require_texels(rendered({.material = "ka = 0\nkd = 0.5", .lights = "", .more = wall}),
                    [](int, int) { return grey(0); });
     // The sphere, out of sight behind the observer, blocks the sun in the middle of the square.
     const Image image = rendered({.material = "ka = 0\nkd = 0.5\nemission = [51, 51, 51]", .more = wall});
@@ -142,18 +128,18 @@ TEST_CASE("golden: what a surface emits lights nothing else, and no shadow falls
 
 TEST_CASE("golden: occlusion multiplies only what is reflected of ambient light") {
     const std::string both = std::string(k_sun) + k_ambient;
-    require_pixels(rendered({.material = "ka = 0.8\nkd = 0.25\nocclusion = 0.5", .lights = both}),
+    require_texels(rendered({.material = "ka = 0.8\nkd = 0.25\nocclusion = 0.5", .lights = both}),
                    [](int, int) { return grey(0.25 + 0.5 * 0.5 * 0.8); });
-    require_pixels(rendered({.material = "ka = 0.8\nkd = 0.25\nocclusion = 0.5\nemission = [51, 51, 51]",
+    require_texels(rendered({.material = "ka = 0.8\nkd = 0.25\nocclusion = 0.5\nemission = [51, 51, 51]",
                              .lights = both}),
                    [](int, int) { return grey(0.2 + 0.25 + 0.5 * 0.5 * 0.8); });
     SECTION("by a picture, whose strength is a scale and an offset") {
         const std::string material =
             "ka = 0.8\nkd = 0.25\nocclusion = { texture = \"p.ppm\", scale = 0.7, offset = 0.3 }";
         for (const char* const encoding : {"none", "srgb"})
-            require_pixels(rendered({.material = material, .lights = both, .encoding = encoding}),
+            require_texels(rendered({.material = material, .lights = both, .encoding = encoding}),
                            [](int x, int) { return grey(0.25 + (0.3 + 0.7 * red(x)) * 0.5 * 0.8); });
-        require_pixels(
+        require_texels(
             rendered({.material = "ka = 0.8\nkd = 0.25\nocclusion = { texture = \"p.ppm\", channel "
                                   "= \"g\", scale = 4 }",
                       .lights = both}),
@@ -163,13 +149,13 @@ TEST_CASE("golden: occlusion multiplies only what is reflected of ambient light"
         const std::string more =
             "[[light]]\ntype = \"hemisphere\"\nsky_color = [255, 255, 255]\nground_color = [255, 255, 255]\n"
             "intensity = 0.25\n[[light]]\ntype = \"ambient\"\nintensity = 0.5\n";
-        require_pixels(rendered({.material = "ka = 0.8\nkd = 0.25\nocclusion = 0.5", .lights = both + more}),
+        require_texels(rendered({.material = "ka = 0.8\nkd = 0.25\nocclusion = 0.5", .lights = both + more}),
                        [](int, int) { return grey(0.25 + 0.5 * (0.5 + 0.25 + 0.5) * 0.8); });
     }
 }
 
 TEST_CASE("golden: a material's own textures, its emission and its occlusion may share a picture") {
-    require_pixels(
+    require_texels(
         rendered({.material =
                       "ka = 1\nkd = { texture = \"p.ppm\", channel = \"b\" }\nocclusion = { texture = "
                       "\"p.ppm\", channel = \"r\" }\nemission = { texture = \"p.ppm\", channel = \"g\" }",

@@ -54,21 +54,6 @@ Color over(const Color& color, double opacity, const Color& behind) {
     return result;
 }
 
-template <class Expected>
-void require_pixels(const Image& image, Expected expected, double tolerance = 2e-6) {
-    for (int y = 0; y < image.height; ++y) {
-        for (int x = 0; x < image.width; ++x) {
-            const Color at = expected(x, y);
-            const auto pixel = image.at(x, y);
-            INFO("pixel " << x << ", " << y << ": " << pixel.x << ' ' << pixel.y << ' ' << pixel.z
-                          << " instead of " << at[0] << ' ' << at[1] << ' ' << at[2]);
-            REQUIRE(std::abs(static_cast<double>(pixel.x) - at[0]) < tolerance);
-            REQUIRE(std::abs(static_cast<double>(pixel.y) - at[1]) < tolerance);
-            REQUIRE(std::abs(static_cast<double>(pixel.z) - at[2]) < tolerance);
-        }
-    }
-}
-
 /// A PNG file with four channels; `alpha`: of 255, by column and row.
 void write_alpha(const std::filesystem::path& file, int size, const std::function<int(int, int)>& alpha) {
     std::vector<std::uint8_t> bytes;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "golden/image.h"
+
 /// A square of two metres in the plane z = 0 that faces the observer, covered once by the picture.
 inline constexpr const char* k_square =
     "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\n"
@@ -28,3 +30,9 @@ inline constexpr double k_blue = 100.0 / 255;
 
 /// IEC 61966-2-1.
 inline double decoded(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
+
+/// Like require_pixels(), where a texel is looked up for each pixel.
+template <class Expected>
+void require_texels(const Image& image, Expected expected) {
+    require_pixels(image, expected, 3e-4);
+}

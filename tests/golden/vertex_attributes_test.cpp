@@ -47,21 +47,6 @@ Image of_ply(const std::string& material, const std::string& object = {}) {
     return render_floats(folder, scene("square.ply", material, object));
 }
 
-template <class Expected>
-void require_pixels(const Image& image, Expected expected, double tolerance = 2e-6) {
-    for (int y = 0; y < k_size; ++y) {
-        for (int x = 0; x < k_size; ++x) {
-            const Channels at = expected(x, y);
-            const auto pixel = image.at(x, y);
-            INFO("pixel " << x << ", " << y << ": " << pixel.x << ' ' << pixel.y << ' ' << pixel.z
-                          << " instead of " << at[0] << ' ' << at[1] << ' ' << at[2]);
-            REQUIRE(std::abs(static_cast<double>(pixel.x) - at[0]) < tolerance);
-            REQUIRE(std::abs(static_cast<double>(pixel.y) - at[1]) < tolerance);
-            REQUIRE(std::abs(static_cast<double>(pixel.z) - at[2]) < tolerance);
-        }
-    }
-}
-
 /// From 0 at the left edge, or the bottom, to 1 at the other.
 double across(int x) { return (x + 0.5) / k_size; }
 double upwards(int y) { return 1 - (y + 0.5) / k_size; }

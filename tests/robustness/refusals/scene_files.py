@@ -6,18 +6,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "assets"))
 import pictures  # noqa: E402
+from pictures import PNG_BEGIN, chunk, png_header  # noqa: E402
 
-PNG_BEGIN = b"\x89PNG\r\n\x1a\n"
 BOMB = "bomb.png"  # 900 million pixels in 100 kB
 EVERYWHERE = (BOMB, "cut.png", "huge.png", "cut.jpg", "not-a-number.pfm")  # under every key, not only under color
-
-
-def chunk(name: bytes, data: bytes) -> bytes:
-    return struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
-
-
-def header(width: int, height: int, depth: int = 8, kind: int = 2) -> bytes:
-    return chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, depth, kind, 0, 0, 0))
 
 
 def broken_pictures():
@@ -29,18 +21,18 @@ def broken_pictures():
     yield "text.png", b"brown\n", "cannot be read as a picture"
     yield "cut.png", sound[:len(sound) // 2], "it is cut off"
     yield "checksum.png", sound.replace(b"IDAT", b"IDAT\x01", 1), "cannot be read as a picture"
-    yield "none.png", PNG_BEGIN + header(0, 8) + data + end, "cannot be read as a picture"
+    yield "none.png", PNG_BEGIN + png_header(0, 8) + data + end, "cannot be read as a picture"
     # A few bytes that declare 900 million pixels.
-    yield "huge.png", PNG_BEGIN + header(30000, 30000) + data + end, "it is too small for its pixels"
-    yield "largest.png", PNG_BEGIN + header(2**31 - 1, 2**31 - 1) + data + end, "cannot be read as a picture"
-    yield "palette-16.png", PNG_BEGIN + header(8, 8, 16, 3) + data + end, "cannot be read as a picture"
-    yield "palette-missing.png", PNG_BEGIN + header(8, 8, 8, 3) + data + end, "cannot be read as a picture"
+    yield "huge.png", PNG_BEGIN + png_header(30000, 30000) + data + end, "it is too small for its pixels"
+    yield "largest.png", PNG_BEGIN + png_header(2**31 - 1, 2**31 - 1) + data + end, "cannot be read as a picture"
+    yield "palette-16.png", PNG_BEGIN + png_header(8, 8, 16, 3) + data + end, "cannot be read as a picture"
+    yield "palette-missing.png", PNG_BEGIN + png_header(8, 8, 8, 3) + data + end, "cannot be read as a picture"
     yield "cut.jpg", jpeg[:len(jpeg) // 2], "cannot be read as a picture"
     yield "huge.jpg", jpeg.replace(struct.pack(">HH", 16, 16), struct.pack(">HH", 65500, 65500)), "it is too small for its pixels"
     yield "animated.gif", b"GIF89a\x02\0\x02\0\0\0\0;", "has a format that no image plugin reads"
     yield "moving.avi", b"RIFF\x10\0\0\0AVI LIST", "has a format that no image plugin reads"
     rows = zlib.compressobj(9)
-    yield BOMB, (PNG_BEGIN + header(30000, 30000, 1, 0) + chunk(b"IDAT", b"".join(rows.compress(bytes(3751 * 1000)) for _ in range(30)) + rows.flush()) +
+    yield BOMB, (PNG_BEGIN + png_header(30000, 30000, 1, 0) + chunk(b"IDAT", b"".join(rows.compress(bytes(3751 * 1000)) for _ in range(30)) + rows.flush()) +
                  end), "a picture of 30000 x 30000 pixels needs 10.8 GB of memory"
     yield "not-a-number.pfm", b"PF\n1 1\n-1.0\n" + struct.pack("<3f", 0, float("nan"), 0), "a pixel is non-finite"
     yield "infinite.pfm", b"PF\n1 1\n-1.0\n" + struct.pack("<3f", 0, float("-inf"), 0), "a pixel is non-finite"
