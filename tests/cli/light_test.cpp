@@ -132,10 +132,20 @@ TEST_CASE("a picture with many clipped pixels comes with their share, and one wi
     CHECK_FALSE(holds(said(scene(20), "a.png --tone agx"), "clipped"));
     CHECK_FALSE(holds(said(scene(20), "a.pfm"), "clipped"));
     CHECK_FALSE(holds(said(scene(20), "a.png --exposure 8"), "clipped"));
-    // White that is the background's own.
-    CHECK_FALSE(holds(
-        said(scene(0.5, "", "").replace(scene(0.5).find("[10, 120, 250]"), 14, "[255, 255, 255]"), "a.png"),
-        "clipped"));
+}
+
+TEST_CASE("the white of a background is not clipped") {
+    const Folder folder;
+    std::string white = scene(20);
+    white.replace(white.find("[10, 120, 250]"), 14, "[255, 255, 255]");
+    const std::string own = "color = [255, 255, 255]";
+    white.replace(white.find(own), own.size(), "color = [255, 0, 0]");
+    folder.write("scene.toml", white);
+    const char* const k_half = "warning: 50 % of the pixels are clipped";
+    CHECK(holds(succeeded(folder.run("render scene.toml -o white.png")).err, k_half));
+    succeeded(folder.run("render scene.toml --set observer.look_at=[0,0,8] -o sky.png"));
+    CHECK(holds(succeeded(folder.run("render scene.toml --set image.environment=sky.png -o a.png")).err,
+                k_half));
 }
 
 TEST_CASE("POV-Ray is exposed but refuses a tone curve, and glTF says what is left out") {

@@ -12,7 +12,9 @@
 #include <string>
 
 import candela.api;
+import candela.raster;
 import candela.scene;
+import candela.shading;
 
 namespace candela {
 
@@ -23,6 +25,29 @@ constexpr double k_large_share = 0.1;
 
 std::uint8_t byte_of(float shown) { return static_cast<std::uint8_t>(std::lround(255 * shown)); }
 
+/// The bytes of the pixels that show nothing but the background.
+class Background {
+  public:
+    Background(const RenderScene& scene, const DisplayTransform& transform)
+        : environment_(scene.environment),
+          transform_(transform),
+          width_(static_cast<std::size_t>(scene.image.width)),
+          camera_(camera_of(scene.observer, scene.image.width, scene.image.height)) {}
+
+    std::array<std::uint8_t, 3> at(std::size_t pixel) const {
+        const Vec3 towards = camera_.view_through(static_cast<float>(pixel % width_) + 0.5f,
+                                                  static_cast<float>(pixel / width_) + 0.5f);
+        const Rgb shown = displayed(environment_.seen(towards), transform_);
+        return {byte_of(shown.r), byte_of(shown.g), byte_of(shown.b)};
+    }
+
+  private:
+    const EnvironmentMap& environment_;
+    DisplayTransform transform_;
+    std::size_t width_;
+    Camera camera_;
+};
+
 }  // namespace
 
 std::string clipping_diagnosis(const RenderScene& scene, const Film& film,
@@ -30,10 +55,7 @@ std::string clipping_diagnosis(const RenderScene& scene, const Film& film,
     const DisplayTransform transform = display_of(scene);
     if (film.view().pixels == PixelType::real || transform.tone != ToneCurve::none) return {};
     if (transform.exposure * statistics.brightest <= 1) return {};
-    const Rgb background =
-        scene.environment.is_uniform() ? displayed(scene.environment.seen({}), transform) : Rgb{};
-    const std::array<std::uint8_t, 3> own{byte_of(background.r), byte_of(background.g),
-                                          byte_of(background.b)};
+    const Background background(scene, transform);
     const std::span<const std::uint8_t> bytes = film.view().bytes;
     std::size_t clipped = 0;
     // From one full channel to the next: most pictures have few.
@@ -41,9 +63,9 @@ std::string clipping_diagnosis(const RenderScene& scene, const Film& film,
         const void* const full = std::memchr(&bytes[i], 255, bytes.size() - i);
         if (full == nullptr) break;
         const std::size_t pixel =
-            static_cast<std::size_t>(static_cast<const std::uint8_t*>(full) - bytes.data()) / 3 * 3;
-        if (!std::equal(own.begin(), own.end(), &bytes[pixel])) ++clipped;
-        i = pixel + 3;
+            static_cast<std::size_t>(static_cast<const std::uint8_t*>(full) - bytes.data()) / 3;
+        if (!std::ranges::equal(background.at(pixel), bytes.subspan(3 * pixel, 3))) ++clipped;
+        i = 3 * (pixel + 1);
     }
     const double share = 3.0 * static_cast<double>(clipped) / static_cast<double>(bytes.size());
     if (share < k_large_share) return {};
