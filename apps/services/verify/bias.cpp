@@ -84,13 +84,16 @@ Causes effects_on(const Expectation& expected, std::size_t i) {
     return effects;
 }
 
-/// A mean of differences, and its certainty.
+/// A mean of differences, and its certainty. A pixel's channels err together, for instance where its place in
+/// a texture is rounded, so that only pixels are independent: Liang and Zeger (1986), Longitudinal data
+/// analysis using generalized linear models.
 class Mean {
   public:
-    void add(double difference) {
-        sum_ += difference;
-        squares_ += difference * difference;
-        ++count_;
+    /// `sum`: of one pixel's `count` differences.
+    void add(double sum, std::size_t count) {
+        sum_ += sum;
+        squares_ += sum * sum;
+        count_ += count;
     }
     std::size_t count() const { return count_; }
     Estimate estimate() const {
@@ -139,11 +142,21 @@ Bias bias_of(const Expectation& expected, const std::vector<std::uint8_t>& progr
     const std::size_t across = (columns + k_region - 1) / k_region;
     const std::size_t rows = (static_cast<std::size_t>(expected.height) + k_region - 1) / k_region;
     std::vector<Mean> regions(across * rows);
+    double sum = 0;
+    std::size_t count = 0, pixel = 0;
+    const auto end_pixel = [&] {
+        const std::size_t x = pixel % columns, y = pixel / columns;
+        if (count > 0) regions[y / k_region * across + x / k_region].add(sum, count);
+        sum = 0;
+        count = 0;
+    };
     for_each_decided([&](std::size_t i, double difference) {
-        const std::size_t x = i / 3 % columns, y = i / 3 / columns;
-        regions[y / k_region * across + x / k_region].add(difference -
-                                                          effects_on(expected, i).dot(fit.values()));
+        if (i / 3 != pixel) end_pixel();
+        pixel = i / 3;
+        sum += difference - effects_on(expected, i).dot(fit.values());
+        ++count;
     });
+    end_pixel();
     for (std::size_t i = 0; i < regions.size(); ++i) {
         if (regions[i].count() < k_least_of_region) continue;
         const Estimate mean = regions[i].estimate();
