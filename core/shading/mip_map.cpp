@@ -55,12 +55,12 @@ void reduce(const MipMap::Level& from, const MipMap::Level& to, MipMap::Texels& 
                                      const float weight = rows[y].weight[static_cast<std::size_t>(j)] *
                                                           columns[x].weight[static_cast<std::size_t>(i)];
                                      const std::uint16_t* const texel =
-                                         &texels[4 * (row + static_cast<std::size_t>(columns[x].first + i))];
+                                         &texels[3 * (row + static_cast<std::size_t>(columns[x].first + i))];
                                      for (std::size_t c = 0; c < 3; ++c)
                                          sum[c] += weight * static_cast<float>(texel[c]);
                                  }
                              }
-                             std::uint16_t* const texel = &texels[4 * (to.first + y * width + x)];
+                             std::uint16_t* const texel = &texels[3 * (to.first + y * width + x)];
                              for (std::size_t c = 0; c < 3; ++c)
                                  texel[c] = static_cast<std::uint16_t>(std::min(sum[c], 65535.0f));
                          }
@@ -70,16 +70,28 @@ void reduce(const MipMap::Level& from, const MipMap::Level& to, MipMap::Texels& 
 
 }  // namespace
 
-MipMap::MipMap(int width, int height, Texels texels) : texels_(std::move(texels)) {
+std::vector<MipMap::Level> MipMap::levels_of(int width, int height) {
+    std::vector<Level> levels;
     std::size_t first = 0;
     for (;;) {
-        levels_.push_back({width, height, first});
+        levels.push_back({width, height, first});
         first += static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-        if (width == 1 && height == 1) break;
+        if (width == 1 && height == 1) return levels;
         width = std::max(width / 2, 1);
         height = std::max(height / 2, 1);
     }
-    texels_.resize(4 * first);
+}
+
+MipMap::Texels MipMap::room_for(int width, int height) {
+    Texels texels;
+    texels.reserve(3 * (levels_of(width, height).back().first + 1) + k_padding);
+    texels.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    return texels;
+}
+
+MipMap::MipMap(int width, int height, Texels texels)
+    : levels_(levels_of(width, height)), texels_(std::move(texels)) {
+    texels_.resize(3 * (levels_.back().first + 1) + k_padding);
     for (std::size_t i = 1; i < levels_.size(); ++i) reduce(levels_[i - 1], levels_[i], texels_);
     for (const Level& level : levels_) {
         sizes_.push_back(level.width);

@@ -77,7 +77,7 @@ struct BumpMapLoop {
     }
 };
 
-/// Four channels per texel, like `heights`.
+/// Like `heights`, of which it takes the red channel.
 MipMap::Texels slopes_of(const DecodedTexels& heights, const std::array<TextureWrap, 2>& wraps) {
     const auto neighbor = [](int x, int size, TextureWrap wrap) {
         return wrap == TextureWrap::repeat ? (x + size) % size : std::clamp(x, 0, size - 1);
@@ -86,18 +86,18 @@ MipMap::Texels slopes_of(const DecodedTexels& heights, const std::array<TextureW
         const auto texel = static_cast<std::size_t>(neighbor(y, heights.height, wraps[1])) *
                                static_cast<std::size_t>(heights.width) +
                            static_cast<std::size_t>(neighbor(x, heights.width, wraps[0]));
-        return static_cast<int>(heights.texels[4 * texel]);
+        return static_cast<int>(heights.texels[3 * texel]);
     };
     constexpr int k_none = 32768, k_most = 65535;
     const auto slope = [=](int before, int after) {
         return static_cast<std::uint16_t>(std::clamp(k_none + (after - before) / 2, 0, k_most));
     };
-    MipMap::Texels slopes(heights.texels.size());
+    MipMap::Texels slopes = MipMap::room_for(heights.width, heights.height);
     constexpr std::size_t k_rows = 64;
     parallel_for(static_cast<std::size_t>(heights.height), k_rows, [&](std::size_t begin, std::size_t end) {
-        std::size_t to = 4 * begin * static_cast<std::size_t>(heights.width);
+        std::size_t to = 3 * begin * static_cast<std::size_t>(heights.width);
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
-            for (int x = 0; x < heights.width; ++x, to += 4) {
+            for (int x = 0; x < heights.width; ++x, to += 3) {
                 slopes[to] = slope(height(x - 1, y), height(x + 1, y));
                 slopes[to + 1] = slope(height(x, y + 1), height(x, y - 1));
             }

@@ -55,17 +55,20 @@ class CANDELA_EXPORT MipMap {
         int height = 0;
         std::size_t first = 0;  // texel
     };
-    /// Four channels per texel: red, green, blue, 65535 for an intensity of 1; the fourth is padding.
+    /// Red, green and blue, interleaved, 65535 for an intensity of 1.
     using Texels = AlignedVector<std::uint16_t>;
 
-    /// `texels` are those of the picture, rows from the top; their number is `width` x `height`, less than
-    /// 2^31. Levels are made with the threads that with_threads() allows.
+    /// Room for a picture's texels, of which there are less than 2^31, with memory for its levels.
+    static Texels room_for(int width, int height);
+
+    /// `texels` are those of the picture, rows from the top. Levels are made with the threads that
+    /// with_threads() allows.
     MipMap(int width, int height, Texels texels);
 
     int width() const noexcept { return levels_.front().width; }
     int height() const noexcept { return levels_.front().height; }
     std::span<const Level> levels() const noexcept { return levels_; }
-    /// All levels, one after the other.
+    /// All levels, one after the other; behind them, k_padding numbers that may be read.
     std::span<const std::uint16_t> texels() const noexcept { return texels_; }
 
     /// Of each level: width, height, first texel, padding.
@@ -76,9 +79,13 @@ class CANDELA_EXPORT MipMap {
     /// side). The points have been found in this picture or one of the same size.
     void multiply(const TextureFootprints& at, const Vec3Span& color) const noexcept;
 
+    static constexpr std::size_t k_padding = 2;
+
   private:
-    Texels texels_;
+    static std::vector<Level> levels_of(int width, int height);
+
     std::vector<Level> levels_;
+    Texels texels_;
     AlignedVector<std::int32_t> sizes_;
 };
 

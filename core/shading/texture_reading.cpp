@@ -53,7 +53,7 @@ DecodedImage read_picture_of_texture(const std::filesystem::path& file, Registry
         throw Error(ErrorCategory::failure, fmt::format("'{}' has {} x {} pixels; a texture can have {}",
                                                         file.string(), width, height, k_most_texels));
     }
-    constexpr std::size_t k_bytes = 4 * sizeof(std::uint16_t);
+    constexpr std::size_t k_bytes = 3 * sizeof(std::uint16_t);
     require_memory(width * height * k_bytes * 4 / 3, fmt::format("the texture '{}'", file.string()));
     return *std::move(image);
 }
@@ -70,7 +70,7 @@ DecodedTexels read_texels(const std::filesystem::path& file, Registry& registry,
     const auto width = static_cast<std::size_t>(image.width), height = static_cast<std::size_t>(image.height);
     const bool decodes = image.is_encoded && encoding == ColorEncoding::srgb;
     const std::vector<std::uint16_t> table = decodes ? decoding_table() : std::vector<std::uint16_t>();
-    MipMap::Texels texels(4 * width * height);
+    MipMap::Texels texels = MipMap::room_for(image.width, image.height);
     std::atomic<bool> is_finite = true, was_clamped = false;
     constexpr std::size_t k_rows = 64;
     parallel_for(height, k_rows, [&](std::size_t begin, std::size_t end) {
@@ -81,7 +81,7 @@ DecodedTexels read_texels(const std::filesystem::path& file, Registry& registry,
                 finite = finite && std::isfinite(value);
                 clamped = clamped || value > 1;
                 const std::uint16_t whole = quantized(value > 0 ? std::min(value, 1.0f) : 0.0f);
-                texels[4 * i + c] = decodes ? table[whole] : whole;
+                texels[3 * i + c] = decodes ? table[whole] : whole;
             }
         }
         if (!finite) is_finite = false;
@@ -93,12 +93,12 @@ DecodedTexels read_texels(const std::filesystem::path& file, Registry& registry,
 
 TextureImage read_opacity_map(const std::filesystem::path& file, Registry& registry) {
     const DecodedImage image = read_picture_of_texture(file, registry, ColorEncoding::none, true);
-    const std::size_t count = image.values.size() / 3;
-    MipMap::Texels texels(4 * count, quantized(1));
+    MipMap::Texels texels = MipMap::room_for(image.width, image.height);
+    if (image.opacity.empty()) std::ranges::fill(texels, quantized(1));
     for (std::size_t i = 0; i < image.opacity.size(); ++i) {
         const float value = image.opacity[i];
         if (!std::isfinite(value)) throw_non_finite(file);
-        std::fill_n(&texels[4 * i], 3, quantized(std::clamp(value, 0.0f, 1.0f)));
+        std::fill_n(&texels[3 * i], 3, quantized(std::clamp(value, 0.0f, 1.0f)));
     }
     return {std::make_shared<const MipMap>(image.width, image.height, std::move(texels))};
 }

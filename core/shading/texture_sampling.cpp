@@ -164,10 +164,10 @@ struct FootprintLoop {
     }
 };
 
-/// A texel and its neighbour, for two points.
+/// A texel and its neighbour, three channels each and two numbers of the next texel; for two points.
 using EightShorts = std::int16_t __attribute__((vector_size(16)));
 using SixteenShorts = std::int16_t __attribute__((vector_size(32)));
-/// Four channels of two points.
+/// Three channels of two points, and a number without meaning behind each.
 using EightIntegers = std::int32_t __attribute__((vector_size(32)));
 using EightFloats = float __attribute__((vector_size(32)));
 using SixteenIntegers = std::int32_t __attribute__((vector_size(64)));
@@ -184,10 +184,10 @@ struct LevelTexels {
     const TexelFootprints* places;
 
     [[gnu::always_inline]] const std::uint16_t* upper(std::size_t i) const {
-        return texels + 4 * static_cast<std::ptrdiff_t>(places->texel[i]);
+        return texels + 3 * static_cast<std::ptrdiff_t>(places->texel[i]);
     }
     [[gnu::always_inline]] const std::uint16_t* lower(std::size_t i) const {
-        return upper(i) + 4 * (is_interior ? stride : std::ptrdiff_t{places->below[i]});
+        return upper(i) + 3 * (is_interior ? stride : std::ptrdiff_t{places->below[i]});
     }
     [[gnu::always_inline]] void prefetch(std::size_t i) const {
         __builtin_prefetch(upper(i));
@@ -196,13 +196,14 @@ struct LevelTexels {
 
     /// A texel and its neighbour to the right.
     [[gnu::always_inline]] EightShorts load_pair(const std::uint16_t* texel, std::size_t i) const {
-        EightShorts pair;
+        EightShorts pair{};
         if (is_interior || places->right[i] == 1) [[likely]] {
             std::memcpy(&pair, texel, sizeof pair);
         } else {
-            std::memcpy(&pair, texel, sizeof pair / 2);
-            std::memcpy(reinterpret_cast<char*>(&pair) + sizeof pair / 2,
-                        texel + 4 * std::ptrdiff_t{places->right[i]}, sizeof pair / 2);
+            constexpr std::size_t k_size = 3 * sizeof *texel;
+            std::memcpy(&pair, texel, k_size);
+            std::memcpy(reinterpret_cast<char*>(&pair) + k_size, texel + 3 * std::ptrdiff_t{places->right[i]},
+                        k_size);
         }
         return pair;
     }
@@ -226,7 +227,7 @@ struct LevelTexels {
         const SixteenShorts left =
             __builtin_shufflevector(above, below, 0, 16, 1, 17, 2, 18, 3, 19, 8, 24, 9, 25, 10, 26, 11, 27);
         const SixteenShorts right =
-            __builtin_shufflevector(above, below, 4, 20, 5, 21, 6, 22, 7, 23, 12, 28, 13, 29, 14, 30, 15, 31);
+            __builtin_shufflevector(above, below, 3, 19, 4, 20, 5, 21, 6, 22, 11, 27, 12, 28, 13, 29, 14, 30);
         const EightIntegers by_left =
             __builtin_shufflevector(left_weights, left_weights, k, k, k, k, k + 4, k + 4, k + 4, k + 4);
         const EightIntegers by_right =

@@ -81,7 +81,7 @@ void ExportedTextures::add_texture(const std::string& file, std::shared_ptr<cons
     auto& levels = to_.levels.emplace_back();
     for (const MipMap::Level& level : mip_map->levels()) {
         const auto texels = static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
-        levels.push_back({level.width, level.height, mip_map->texels().subspan(4 * level.first, 4 * texels)});
+        levels.push_back({level.width, level.height, mip_map->texels().subspan(3 * level.first, 3 * texels)});
     }
     to_.textures.push_back({.file = to_.labels.emplace_back(file).c_str(), .levels = levels});
 }

@@ -14,11 +14,11 @@ namespace candela::target {
 float mean_of(const ExportedScene& scene, const ExportedTexturedNumber& number) {
     const std::span<const std::uint16_t> texels = scene.textures[number.texture].levels.front().texels;
     double sum = 0;
-    for (std::size_t i = number.texel_channel; i < texels.size(); i += 4) {
+    for (std::size_t i = number.texel_channel; i < texels.size(); i += 3) {
         const float value = number.offset + number.scale * (static_cast<float>(texels[i]) / 65535.0f);
         sum += double{std::min(std::max(value, number.minimum), number.maximum)};
     }
-    return static_cast<float>(sum / (static_cast<double>(texels.size()) / 4));
+    return static_cast<float>(sum / (static_cast<double>(texels.size()) / 3));
 }
 
 std::vector<ParamValue> mean_values(const ExportedScene& scene, const ExportedObject& object) {

@@ -42,10 +42,9 @@ TexturePixels pixels_of(const ExportedTexture& texture, ColorEncoding encoding) 
     TexturePixels pixels{.width = level.width, .height = level.height, .is_encoded = true, .bytes = {}};
     const std::span<const std::uint16_t> texels = level.texels;
     for (std::size_t i = 0; i < texels.size() && pixels.is_encoded; ++i)
-        pixels.is_encoded = i % 4 == 3 || encoded[texels[i]] != k_not_encoded;
-    pixels.bytes.reserve(texels.size() / 4 * (pixels.is_encoded ? 3 : 6));
+        pixels.is_encoded = encoded[texels[i]] != k_not_encoded;
+    pixels.bytes.reserve(texels.size() * (pixels.is_encoded ? 1 : 2));
     for (std::size_t i = 0; i < texels.size(); ++i) {
-        if (i % 4 == 3) continue;
         if (!pixels.is_encoded) pixels.bytes.push_back(static_cast<std::byte>(texels[i] >> 8));
         pixels.bytes.push_back(
             static_cast<std::byte>(pixels.is_encoded ? encoded[texels[i]] : texels[i] & 255));

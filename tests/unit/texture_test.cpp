@@ -25,7 +25,7 @@ MipMap mip_map(int width, int height, const Shown& shown) {
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const Vec3 color = shown(x, y);
-            for (const float channel : {color.x, color.y, color.z, 0.0f})
+            for (const float channel : {color.x, color.y, color.z})
                 texels.push_back(static_cast<std::uint16_t>(channel));
         }
     }
@@ -41,7 +41,7 @@ MipMap ramp(int size, int step) {
 
 Vec3 texel(const MipMap& map, std::size_t level, int x, int y) {
     const MipMap::Level& l = map.levels()[level];
-    const std::size_t i = 4 * (l.first + static_cast<std::size_t>(y * l.width + x));
+    const std::size_t i = 3 * (l.first + static_cast<std::size_t>(y * l.width + x));
     return {static_cast<float>(map.texels()[i]), static_cast<float>(map.texels()[i + 1]),
             static_cast<float>(map.texels()[i + 2])};
 }

@@ -69,8 +69,8 @@ struct ExportedLight {
 struct ExportedTextureLevel {
     int width = 0;
     int height = 0;
-    std::span<const std::uint16_t> texels{};  // four channels per texel: red, green, blue, padding; 65535 is
-                                              // an intensity of 1; rows from the top
+    std::span<const std::uint16_t> texels{};  // red, green, blue, interleaved; 65535 is an intensity of 1;
+                                              // rows from the top
 };
 
 /// A picture on surfaces. Levels, and values between them, are looked up as candela.shading does.
