@@ -1,5 +1,7 @@
 module;
 
+#include "candela/large_pages.h"
+
 #include <fmt/format.h>
 
 #include <cstddef>
@@ -12,6 +14,7 @@ module;
 #include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 module candela.plugins;
 
@@ -31,12 +34,12 @@ class Decoder final : public ImageSink {
         const auto count = 3 * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
         require_memory(count * sizeof(float), fmt::format("a picture of {} x {} pixels", width, height));
         picture_ = {.width = width, .height = height, .is_encoded = is_encoded, .values = {}};
-        picture_.values.assign(count, 0);
+        resize(picture_.values, count, 0);
         return picture_.values;
     }
 
     std::span<float> allocate_opacity() override {
-        if (with_opacity_) picture_.opacity.assign(picture_.values.size() / 3, 1);
+        if (with_opacity_) resize(picture_.opacity, picture_.values.size() / 3, 1);
         return picture_.opacity;
     }
 
@@ -46,6 +49,14 @@ class Decoder final : public ImageSink {
     }
 
   private:
+    /// Pictures are large, and are soon forgotten.
+    static void resize(std::vector<float>& values, std::size_t count, float value) {
+        values.clear();
+        values.reserve(count);
+        prefer_large_pages(values.data(), count * sizeof(float));
+        values.assign(count, value);
+    }
+
     bool with_opacity_;
     DecodedImage picture_;
 };
@@ -64,12 +75,16 @@ std::optional<DecodedImage> read_by_plugin(const std::filesystem::path& file, Re
     const auto reader =
         registry.create<ImageFormat>(name, registry.parameters(PluginKind::image, name), encoding);
     Decoder decoder(with_opacity);
+    const auto message_of = [&](const std::exception& problem) {
+        return fmt::format("'{}' cannot be read as a picture: {}", file.string(), problem.what());
+    };
     try {
         reader->read(file.c_str(), decoder);
         return std::move(decoder).picture();
+    } catch (const MemoryShortage& problem) {
+        throw MemoryShortage(message_of(problem));
     } catch (const std::exception& problem) {
-        throw Error(ErrorCategory::failure,
-                    fmt::format("'{}' cannot be read as a picture: {}", file.string(), problem.what()));
+        throw Error(ErrorCategory::failure, message_of(problem));
     }
 }
 

@@ -50,11 +50,12 @@ bool is_placed_as(const Scene& a, const Scene& b) {
 class SceneBuilder {
   public:
     /// Moves reusable parts out of `before`, if it is not null.
-    SceneBuilder(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics,
+    SceneBuilder(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics, int threads,
                  const Progress& progress, Before* before = nullptr)
         : scene_(draft.scene),
           registry_(registry),
           diagnostics_(diagnostics),
+          threads_(threads),
           progress_(progress),
           before_(before != nullptr &&
                           before->scene.image.color_management == draft.scene.image.color_management &&
@@ -67,7 +68,7 @@ class SceneBuilder {
         built_.image = scene_.image;
         built_.shadow_pattern = scene_.shadows.pattern;
         if (draft.is_complete) make_models();
-        if (draft.is_complete) make_textures();
+        if (draft.is_complete) with_threads(threads, [&] { make_textures(); });
         if (draft.is_complete) make_environment();
         if (draft.is_complete) make_mirror_images();
         place_shapes();
@@ -77,10 +78,10 @@ class SceneBuilder {
     bool has_kept_triangles() const { return before_ != nullptr && kept_ == scene_.objects.size(); }
     std::vector<std::vector<std::string>> take_warnings() { return std::move(warnings_); }
 
-    std::optional<RenderScene> take(int threads) {
+    std::optional<RenderScene> take() {
         if (diagnostics_.has_errors()) return std::nullopt;
         with_threads(
-            threads,
+            threads_,
             [&] {
                 for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
                     finish(i);
@@ -167,6 +168,9 @@ class SceneBuilder {
             textures.keep(before_->built.objects[i].surface);
             textures.keep(built_.objects[i].surface);  // moved from before
         }
+        for (std::size_t i = 0; i < scene_.objects.size(); ++i)
+            textures.expect(scene_.objects[i], built_.objects[i].surface);
+        textures.read();
         for (std::size_t i = 0; i < scene_.objects.size(); ++i)
             textures.make(scene_.objects[i], built_.objects[i].surface);
     }
@@ -436,6 +440,7 @@ class SceneBuilder {
     const Scene& scene_;
     Registry& registry_;
     Diagnostics& diagnostics_;
+    int threads_;
     const Progress& progress_;
     std::size_t steps_done_ = 0;
     Before* before_;        // source of everything unchanged; null: nothing is
@@ -450,7 +455,7 @@ class SceneBuilder {
 
 std::optional<RenderScene> build(const SceneDraft& draft, Registry& registry, Diagnostics& diagnostics,
                                  int threads, const Progress& progress) {
-    return SceneBuilder(draft, registry, diagnostics, progress).take(threads);
+    return SceneBuilder(draft, registry, diagnostics, threads, progress).take();
 }
 
 struct FrameBuilder::Kept {
@@ -470,9 +475,9 @@ const RenderScene* FrameBuilder::build(const SceneDraft& draft, Diagnostics& dia
     // If this one throws, nothing of the previous frame is kept.
     std::optional<Before> before = std::exchange(kept_->before, std::nullopt);
     const Progress silent;
-    SceneBuilder builder(draft, kept_->registry, diagnostics, silent, before ? &*before : nullptr);
+    SceneBuilder builder(draft, kept_->registry, diagnostics, threads, silent, before ? &*before : nullptr);
     kept_->has_kept_triangles = builder.has_kept_triangles();
-    auto built = builder.take(threads);
+    auto built = builder.take();
     if (!built) return nullptr;
     kept_->before = Before{draft.scene, *std::move(built), builder.take_warnings()};
     return &kept_->before->built;

@@ -3,9 +3,13 @@ module;
 #include <fmt/format.h>
 
 #include <array>
+#include <atomic>
+#include <cstddef>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 module candela.render;
@@ -20,51 +24,128 @@ import candela.util;
 
 namespace candela {
 
-std::string SceneTextures::key_of(const std::string& file, ColorEncoding decoding) const {
-    return fmt::format("{} {}", static_cast<int>(decoding), file);
+namespace {
+
+/// Whether none has been made for it, or moved from the frame before.
+bool lacks_textures(const SurfaceModels& surface) {
+    return surface.material_textures.arrays() == 0 && surface.opacity_textures.arrays() == 0;
 }
+
+bool tilts_normals(const Object& object, const SurfaceModels& surface) {
+    return object.normal_map && surface.shading != nullptr &&
+           surface.shading->shading_rate() == ShadingRate::fragment;
+}
+
+}  // namespace
 
 void SceneTextures::keep(const SurfaceModels& surface) {
     for (const PlacedTexture& texture : surface.material_textures.textures)
-        pictures_[texture.key] = texture.picture;
+        pictures_[texture.key].mip_map = texture.picture;
     for (const PlacedTexture& texture : surface.opacity_textures.textures)
-        pictures_[texture.key] = texture.picture;
+        pictures_[texture.key].mip_map = texture.picture;
 }
 
-/// Null if it cannot be read, which was an Error before.
-const std::shared_ptr<const MipMap>& SceneTextures::picture(const std::string& file, ColorEncoding decoding,
-                                                            const SourceLocation& place) {
-    const auto [known, is_new] = pictures_.try_emplace(key_of(file, decoding));
-    if (!is_new) return known->second;
-    const TextureImage read = read_texture(file, registry_, decoding);
-    if (read.was_clamped)
+SceneTextures::Request SceneTextures::request_of(const std::string& file, ColorEncoding decoding) {
+    return {.key = fmt::format("{} {}", static_cast<int>(decoding), file), .file = file, .read = [=, this] {
+                return read_texture(file, registry_, decoding);
+            }};
+}
+
+SceneTextures::Request SceneTextures::request_of(const ParameterTexture& texture,
+                                                 const Parameter& parameter) {
+    if (texture.channel != TextureChannel::alpha)
+        return request_of(texture.file, encoding_of(texture, parameter, of_scene_));
+    return {.key = "opacity " + texture.file, .file = texture.file, .read = [file = texture.file, this] {
+                return read_opacity_map(file, registry_);
+            }};
+}
+
+SceneTextures::Request SceneTextures::request_of(const NormalMap& map) {
+    if (!map.has_heights) return request_of(map.file, ColorEncoding::none);
+    const std::array<TextureWrap, 2> wraps = map.placing.wraps();
+    return {.key = fmt::format("slopes {} {} {}", static_cast<int>(wraps[0]), static_cast<int>(wraps[1]),
+                               map.file),
+            .file = map.file,
+            .read = [file = map.file, wraps, this] { return read_bump_map(file, registry_, wraps); }};
+}
+
+void SceneTextures::expect(Request request) {
+    if (pictures_.try_emplace(request.key).second) expected_.push_back(std::move(request));
+}
+
+void SceneTextures::expect(const Object& object, const SurfaceModels& surface) {
+    if (!lacks_textures(surface)) return;
+    if (tilts_normals(object, surface)) expect(request_of(*object.normal_map));
+    const auto note = [&](const ParameterTexture& texture, const Parameter& parameter) {
+        expect(request_of(texture, parameter));
+        return std::optional<PlacedTexture>();
+    };
+    MaterialTextures material, opacity;
+    MaterialTextures::add_all(object, note, material, opacity);
+}
+
+SceneTextures::Picture SceneTextures::read(const Request& request) {
+    try {
+        TextureImage image = request.read();
+        return {.mip_map = std::move(image.mip_map), .was_clamped = image.was_clamped};
+    } catch (const MemoryShortage&) {
+        throw;
+    } catch (const Error&) {
+        return {.problem = std::current_exception()};
+    }
+}
+
+void SceneTextures::read() {
+    const std::vector<Request> wanted = std::exchange(expected_, {});
+    std::vector<std::optional<Picture>> pictures(wanted.size());
+    if (wanted.size() > 1) {
+        std::atomic<bool> is_short = false;
+        const auto read_some = [&](std::size_t begin, std::size_t end) {
+            try {
+                for (std::size_t i = begin; i < end && !is_short; ++i) pictures[i] = read(wanted[i]);
+            } catch (const MemoryShortage&) {
+                is_short = true;
+            }
+        };
+        // One thread each: while waiting for others, it would begin with further pictures.
+        parallel_for(wanted.size(), 1, [&](std::size_t begin, std::size_t end) {
+            with_threads(1, [&] { read_some(begin, end); });
+        });
+    }
+    // Alone, a picture may have enough memory. If not, one message about it is enough.
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        try {
+            if (!pictures[i]) pictures[i] = read(wanted[i]);
+            pictures_[wanted[i].key] = *std::move(pictures[i]);
+        } catch (const MemoryShortage&) {
+            pictures_[wanted[i].key].problem = std::current_exception();
+            return;
+        }
+    }
+}
+
+std::shared_ptr<const MipMap> SceneTextures::picture(const Request& request, const SourceLocation& place) {
+    Picture& known = pictures_[request.key];
+    if (known.problem) std::rethrow_exception(std::exchange(known.problem, nullptr));
+    if (std::exchange(known.was_clamped, false))
         diagnostics_.warning(place, fmt::format("the texture '{}' has intensities above 1, which are "
                                                 "clamped: a surface cannot reflect more",
-                                                file));
-    known->second = read.mip_map;
-    return known->second;
-}
-
-const std::shared_ptr<const MipMap>& SceneTextures::opacity_map(const std::string& file) {
-    auto& known = pictures_["opacity " + file];
-    if (known == nullptr) known = read_opacity_map(file, registry_).mip_map;
-    return known;
-}
-
-PlacedTexture SceneTextures::placed(const ParameterTexture& texture, const Parameter& parameter) {
-    if (texture.channel == TextureChannel::alpha)
-        return {"opacity " + texture.file, opacity_map(texture.file), texture.placing};
-    const ColorEncoding decoding = encoding_of(texture, parameter, of_scene_);
-    return {key_of(texture.file, decoding), picture(texture.file, decoding, texture.place), texture.placing};
+                                                request.file));
+    return known.mip_map;
 }
 
 void SceneTextures::make(const Object& object, SurfaceModels& surface) {
-    if (surface.material_textures.arrays() > 0 || surface.opacity_textures.arrays() > 0) return;
+    if (!lacks_textures(surface)) return;
     if (object.normal_map) make_normal_map(object, *object.normal_map, surface);
     const auto place = [&](const ParameterTexture& texture, const Parameter& parameter) {
         std::optional<PlacedTexture> result;
         reported(diagnostics_, fmt::format("'{}' of object {}", texture.parameter, object.label.text()),
-                 texture.place, [&] { result = placed(texture, parameter); });
+                 texture.place, [&] {
+                     const Request request = request_of(texture, parameter);
+                     auto picture = this->picture(request, texture.place);
+                     if (picture != nullptr)
+                         result = PlacedTexture{request.key, std::move(picture), texture.placing};
+                 });
         return result;
     };
     MaterialTextures::add_all(object, place, surface.material_textures, surface.opacity_textures);
@@ -74,29 +155,19 @@ void SceneTextures::make(const Object& object, SurfaceModels& surface) {
 void SceneTextures::make_normal_map(const Object& object, const NormalMap& map, SurfaceModels& surface) {
     const char* const key = map.has_heights ? "bump_map" : "normal_map";
     if (surface.shading == nullptr) return;  // an error has been reported
-    const ShadingRate rate = surface.shading->shading_rate();
-    if (rate != ShadingRate::fragment) {
+    if (!tilts_normals(object, surface)) {
         diagnostics_.warning(
             map.place, fmt::format("'{}' of object {} has no effect: shading/{} evaluates light once per {}",
                                    key, object.label.text(), surface.shading_plugin,
-                                   rate == ShadingRate::face ? "face" : "vertex"));
+                                   surface.shading->shading_rate() == ShadingRate::face ? "face" : "vertex"));
         return;
     }
     reported(diagnostics_, fmt::format("'{}' of object {}", key, object.label.text()), map.place, [&] {
-        std::string name = key_of(map.file, ColorEncoding::none);
-        std::shared_ptr<const MipMap> texels;
-        if (map.has_heights) {
-            const std::array<TextureWrap, 2> wraps = map.placing.wraps();
-            name =
-                fmt::format("slopes {} {} {}", static_cast<int>(wraps[0]), static_cast<int>(wraps[1]), name);
-            auto& slopes = pictures_[name];
-            if (slopes == nullptr) slopes = read_bump_map(map.file, registry_, wraps).mip_map;
-            texels = slopes;
-        } else {
-            texels = picture(map.file, ColorEncoding::none, map.place);
-        }
+        const Request request = request_of(map);
+        const std::shared_ptr<const MipMap> texels = picture(request, map.place);
         if (texels == nullptr) return;
-        surface.material_textures.add(map, {name, texels, map.placing}, texels->width(), texels->height());
+        surface.material_textures.add(map, {request.key, texels, map.placing}, texels->width(),
+                                      texels->height());
     });
 }
 

@@ -134,8 +134,8 @@ void require_memory(std::uint64_t bytes, std::string_view what) {
     unseen = 0;
     const std::uint64_t available = available_memory();
     if (bytes <= left_of(available, k_reserve)) return;
-    throw Error(ErrorCategory::failure, fmt::format("{} needs {} of memory; {} are available", what,
-                                                    size_text(bytes), size_text(available)));
+    throw MemoryShortage(
+        fmt::format("{} needs {} of memory; {} are available", what, size_text(bytes), size_text(available)));
 }
 
 }  // namespace candela

@@ -5,6 +5,7 @@ module;
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 export module candela.util:memory;
@@ -24,7 +25,13 @@ CANDELA_EXPORT std::uint64_t available_memory();
 CANDELA_EXPORT std::uint64_t memory_left_by_control_groups(const std::filesystem::path& mount,
                                                            const std::filesystem::path& membership);
 
-/// Throws Error (failure) if another `bytes` do not fit: "`what` needs 12.9 GB of memory; 3.1 GB are
+/// Why something that needs much memory was not begun; what comes after it would hardly fit either.
+class CANDELA_EXPORT MemoryShortage : public Error {
+  public:
+    explicit MemoryShortage(const std::string& message) : Error(ErrorCategory::failure, message) {}
+};
+
+/// Throws MemoryShortage if another `bytes` do not fit: "`what` needs 12.9 GB of memory; 3.1 GB are
 /// available". Small amounts are accumulated and checked from time to time, so calling it often is cheap. Any
 /// thread.
 CANDELA_EXPORT void require_memory(std::uint64_t bytes, std::string_view what);

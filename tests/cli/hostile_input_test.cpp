@@ -157,6 +157,24 @@ TEST_CASE("a picture, and a shape, that do not fit into memory are errors that s
     CHECK_FALSE(directory.has("a.pfm"));
 }
 
+TEST_CASE("of textures that do not fit into memory, only the first is an error") {
+    if (k_has_shadow_memory) SKIP("sanitizers need more address space");
+    constexpr std::size_t k_pictures = 60, k_size = 2048;
+    const Folder directory(
+        {{"0.ppm", fmt::format("P6\n{0} {0}\n255\n", k_size) + std::string(3 * k_size * k_size, 'x')}});
+    std::string text = k_head + "[constraints]\noverlap = \"allow\"\n";
+    for (std::size_t i = 0; i < k_pictures; ++i) {
+        const std::string name = fmt::format("{}.ppm", i);
+        if (i > 0) fs::create_hard_link(directory / "0.ppm", directory / name);
+        text += fmt::format("[[object]]\ntype = \"sphere\"\ncolor = {{ texture = \"{}\" }}\n", name);
+    }
+    const fs::path scene = directory.write("scene.toml", text);
+    const CommandResult result = in_megabytes(
+        1200, fmt::format("render {0} --width 64 --height 48 --threads 2 -o {0}.ppm", scene.string()));
+    expect(result, 1, {" MB of memory; ", " are available"});
+    CHECK(count_of(result.err, "error:") == 1);
+}
+
 TEST_CASE(
     "shadows of ten million triangles take 120 bytes each; with less memory, an error says how much they "
     "need",

@@ -277,7 +277,8 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
             request.streams.emplace(file, scene_of_model(file,
                                                          {.allow_outside = line.has("allow-outside"),
                                                           .with_animation = with_animation,
-                                                          .with_studio = !line.has("plain")},
+                                                          .with_studio = !line.has("plain"),
+                                                          .threads = threads_from(line)},
                                                          registry));
         }
     }

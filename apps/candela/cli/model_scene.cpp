@@ -10,6 +10,7 @@
 #include "import/import.h"
 #include "sandbox/temporary_folder.h"
 
+import candela.api;
 import candela.util;
 
 namespace {
@@ -31,21 +32,22 @@ const std::string& scene_of_model(const std::string& file, const ModelOptions& o
     static std::optional<TemporaryFolder> images;
     const auto [scene, is_new] = known.try_emplace(file);
     if (!is_new) return scene->second;
-    const importing::Imported imported = importing::import_model(
-        {.file = file,
-         .allow_outside = options.allow_outside,
-         .with_animation = options.with_animation,
-         .with_studio = options.with_studio,
-         .shown_file = std::filesystem::path(file).filename().string(),  // it is relative to itself
-         .write_image =
-             [&](const std::string& name, const std::string& content) {
-                 if (!images) images.emplace("candela-import-");
-                 const std::filesystem::path path = images->path() / name;
-                 candela::write_text_file(path, content);
-                 return path.string();
-             },
-         .name_of_image = [](const std::filesystem::path& image) { return image.string(); }},
-        registry);
+    const importing::Request request{
+        .file = file,
+        .allow_outside = options.allow_outside,
+        .with_animation = options.with_animation,
+        .with_studio = options.with_studio,
+        .shown_file = std::filesystem::path(file).filename().string(),  // it is relative to itself
+        .write_image =
+            [&](const std::string& name, const std::string& content) {
+                if (!images) images.emplace("candela-import-");
+                const std::filesystem::path path = images->path() / name;
+                candela::write_text_file(path, content);
+                return path.string();
+            },
+        .name_of_image = [](const std::filesystem::path& image) { return image.string(); }};
+    importing::Imported imported;
+    candela::with_threads(options.threads, [&] { imported = importing::import_model(request, registry); });
     for (const std::string& note : imported.notes) warn(note);
     triangles_of_models().push_back(imported.triangles);
     return scene->second = imported.scene;

@@ -14,6 +14,7 @@ struct ModelOptions {
     bool allow_outside = false;
     bool with_animation = false;
     bool with_studio = true;
+    int threads = 0;  // 0: all available
 };
 
 /// The scene that shows a model. It is made once; so are the files of pictures embedded in the model, which

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <utility>
 
 import candela.api;
@@ -53,10 +54,21 @@ const char* name_of(Channel channel) {
     }
 }
 
+/// Adds the numbers of the textures that a part of a material names: "baseColorTexture": { "index": 3 }.
+void add_textures(const Json& part, std::set<std::size_t>& textures) {
+    if (!part.is_structured()) return;
+    if (part.is_object()) {
+        if (const auto index = index_of(part, "index")) textures.insert(*index);
+    }
+    for (const Json& inner : part) add_textures(inner, textures);
+}
+
 }  // namespace
 
 Textures::Textures(Container& container, candela::Registry& registry, Model& model)
-    : container_(container), json_(container.json()), registry_(registry), model_(model) {}
+    : container_(container), json_(container.json()), registry_(registry), model_(model) {
+    read_all();
+}
 
 std::optional<Textures::Placed> Textures::texture(const Json& from, const char* name,
                                                   const std::string& material) {
@@ -164,16 +176,18 @@ std::size_t Textures::index_of_image(MeasuredImage& image) {
     return *image.index;
 }
 
+std::optional<std::size_t> Textures::source_of(const Json& texture) {
+    std::optional<std::size_t> source = index_of(texture, "source");
+    // Given two formats, prefer the one that every program reads.
+    for (const char* const extension :
+         {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "KHR_texture_basisu"})
+        if (!source) source = index_of(object_of(object_of(texture, "extensions"), extension), "source");
+    return source;
+}
+
 Textures::MeasuredImage* Textures::image_of(const Json& info, const std::string& material) {
     const Json* const texture = element(array_of(json_, "textures"), index_of(info, "index"));
-    std::optional<std::size_t> source;
-    if (texture != nullptr) {
-        source = index_of(*texture, "source");
-        // Given two formats, prefer the one that every program reads.
-        for (const char* const extension :
-             {"EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds", "KHR_texture_basisu"})
-            if (!source) source = index_of(object_of(object_of(*texture, "extensions"), extension), "source");
-    }
+    const auto source = texture != nullptr ? source_of(*texture) : std::nullopt;
     if (!source || element(array_of(json_, "images"), source) == nullptr) {
         model_.count("no textures", fmt::format("the picture of a texture of {} is missing", material),
                      fmt::format("the pictures of {{}} textures are missing, the first of {}", material));
@@ -182,28 +196,77 @@ Textures::MeasuredImage* Textures::image_of(const Json& info, const std::string&
     return image_at(*source, material);
 }
 
+Textures::ReadPicture Textures::read(Image file) const {
+    ReadPicture result;
+    try {
+        ReadImage read = read_image(file, registry_);
+        file.brightness = brightness_of(read.pixels);
+        result.other_format = std::move(read.other_format);
+        result.image = MeasuredImage{.file = std::move(file), .means = means_of(read.pixels)};
+    } catch (const candela::MemoryShortage&) {
+        throw;
+    } catch (const candela::Error& problem) {
+        result.problem = problem.what();
+    }
+    return result;
+}
+
+Textures::ReadPicture Textures::read(std::size_t image) {
+    try {
+        return read(container_.image(image));
+    } catch (const candela::Error& problem) {
+        return {.problem = problem.what()};
+    }
+}
+
+void Textures::read_all() {
+    std::set<std::size_t> textures, images;
+    for (const Json& material : array_of(json_, "materials")) add_textures(material, textures);
+    for (const std::size_t texture : textures) {
+        const Json* const named = element(array_of(json_, "textures"), texture);
+        const auto source = named != nullptr ? source_of(*named) : std::nullopt;
+        if (element(array_of(json_, "images"), source) != nullptr) images.insert(*source);
+    }
+    std::vector<std::pair<std::size_t, Image>> files;
+    for (const std::size_t image : images) {
+        try {
+            files.emplace_back(image, container_.image(image));
+        } catch (const candela::Error& problem) {
+            images_[image].problem = problem.what();
+        }
+    }
+    std::vector<std::optional<ReadPicture>> pictures(files.size());
+    candela::parallel_for(files.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            try {
+                pictures[i] = read(std::move(files[i].second));
+            } catch (const candela::MemoryShortage&) {
+                continue;  // alone, it may have enough
+            }
+        }
+    });
+    for (std::size_t i = 0; i < files.size(); ++i)
+        if (pictures[i]) images_[files[i].first] = *std::move(pictures[i]);
+}
+
 Textures::MeasuredImage* Textures::image_at(std::size_t index, const std::string& material) {
     const auto [known, is_new] = images_.try_emplace(index);
-    if (!is_new) return known->second ? &*known->second : nullptr;
-    try {
-        Image found = container_.image(index);
-        const auto [pixels, other_format] = read_image(found, registry_);
-        found.brightness = brightness_of(pixels);
-        if (!other_format.empty())
+    ReadPicture& picture = known->second;
+    if (is_new) picture = read(index);
+    if (!std::exchange(picture.is_noted, true)) {
+        if (!picture.problem.empty())
+            model_.count(
+                "pictures", fmt::format("a texture of {} is left out: {}", material, picture.problem),
+                fmt::format("{{}} textures are left out, the first of {}: {}", material, picture.problem));
+        if (!picture.other_format.empty())
             model_.count("misnamed pictures",
                          fmt::format("a texture of {} is read as {}, according to its content", material,
-                                     other_format),
+                                     picture.other_format),
                          fmt::format("{{}} textures are read according to their content, the first "
                                      "of {} as {}",
-                                     material, other_format));
-        known->second = MeasuredImage{.file = std::move(found), .means = means_of(pixels)};
-        return &*known->second;
-    } catch (const candela::Error& problem) {
-        model_.count(
-            "pictures", fmt::format("a texture of {} is left out: {}", material, problem.what()),
-            fmt::format("{{}} textures are left out, the first of {}: {}", material, problem.what()));
-        return nullptr;
+                                     material, picture.other_format));
     }
+    return picture.image ? &*picture.image : nullptr;
 }
 
 }  // namespace importing::gltf

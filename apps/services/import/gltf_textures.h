@@ -31,7 +31,7 @@ class Textures {
         Placing placing{};
     };
 
-    /// Notes losses in `model` and adds pictures to it.
+    /// Reads the pictures of all materials. Notes losses in `model` and adds pictures to it.
     Textures(Container& container, candela::Registry& registry, Model& model);
 
     /// The texture of that name in a part of a material; nothing if there is none, or if it cannot be used,
@@ -47,9 +47,23 @@ class Textures {
     void tilt_normals(const Json& material, const std::string& name, Material& to);
 
   private:
+    /// A picture that has been read, and what its first material notes.
+    struct ReadPicture {
+        std::optional<MeasuredImage> image{};  // none: it cannot be read
+        std::string problem{}, other_format{};
+        bool is_noted = false;
+    };
+
     /// The image of a texture; null if it cannot be read.
     MeasuredImage* image_of(const Json& info, const std::string& material);
     MeasuredImage* image_at(std::size_t index, const std::string& material);
+    /// The number of the image that a texture shows.
+    static std::optional<std::size_t> source_of(const Json& texture);
+    /// Throws candela::MemoryShortage.
+    ReadPicture read(Image file) const;
+    ReadPicture read(std::size_t image);
+    /// Reads the images of all materials, several at a time.
+    void read_all();
     /// How a texture continues beyond its edges.
     void wrap(const Json& info, Placing& to) const;
     /// Whether a mesh of the file has them.
@@ -60,7 +74,7 @@ class Textures {
     const Json& json_;
     candela::Registry& registry_;
     Model& model_;
-    std::map<std::size_t, std::optional<MeasuredImage>> images_;
+    std::map<std::size_t, ReadPicture> images_;
 };
 
 }  // namespace importing::gltf

@@ -67,6 +67,8 @@ ReadImage read_image(const Image& image, candela::Registry& registry) {
     try {
         decoded =
             candela::read_by_plugin(file, registry, candela::ColorEncoding::srgb, /*with_opacity=*/true);
+    } catch (const candela::MemoryShortage& problem) {
+        throw candela::MemoryShortage(reason_of(problem, file));
     } catch (const candela::Error& problem) {
         throw candela::Error(candela::ErrorCategory::failure, reason_of(problem, file));
     }

@@ -20,7 +20,7 @@ struct ReadImage {
 
 /// Reads a picture from a file or from its bytes. Throws candela::Error (failure) with the reason if that
 /// fails: no image plugin reads its format, or it is empty or truncated. A scene that uses such a picture
-/// would be rejected.
+/// would be rejected. Any thread.
 ReadImage read_image(const Image& image, candela::Registry& registry);
 
 /// The mean over all pixels of the largest channel: 0 to 1, linear.

@@ -1,8 +1,11 @@
 module;
 
+#include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <vector>
 
 module candela.render:scene_textures;
 
@@ -14,7 +17,7 @@ import candela.util;
 
 namespace candela {
 
-/// The pictures of a scene's textures, each read once.
+/// The pictures of a scene's textures, each read once, several at a time.
 class SceneTextures {
   public:
     SceneTextures(Registry& registry, Diagnostics& diagnostics, ColorEncoding of_scene)
@@ -23,21 +26,42 @@ class SceneTextures {
     /// Keeps the pictures of an object that has been built, for a scene with the same encoding of colours.
     void keep(const SurfaceModels& surface);
 
-    /// Reads what the surface lacks. Problems are reported at the place of the texture.
+    /// Expects the pictures that the surface lacks.
+    void expect(const Object& object, const SurfaceModels& surface);
+    /// Reads what is expected, with the threads that with_threads() allows.
+    void read();
+    /// Gives the surface the textures that it lacks; their pictures have been read. Problems are reported at
+    /// the place of the first texture that has them.
     void make(const Object& object, SurfaceModels& surface);
 
   private:
-    std::string key_of(const std::string& file, ColorEncoding decoding) const;
-    const std::shared_ptr<const MipMap>& picture(const std::string& file, ColorEncoding decoding,
-                                                 const SourceLocation& place);
-    const std::shared_ptr<const MipMap>& opacity_map(const std::string& file);
-    PlacedTexture placed(const ParameterTexture& texture, const Parameter& parameter);
+    /// A picture, and how it is read.
+    struct Request {
+        std::string key{};  // PlacedTexture::key
+        std::string file{};
+        std::function<TextureImage()> read{};
+    };
+    struct Picture {
+        std::shared_ptr<const MipMap> mip_map{};
+        bool was_clamped = false;
+        std::exception_ptr problem{};  // why there is none
+    };
+
+    Request request_of(const ParameterTexture& texture, const Parameter& parameter);
+    Request request_of(const NormalMap& map);
+    Request request_of(const std::string& file, ColorEncoding decoding);
+    void expect(Request request);
+    /// Throws MemoryShortage; other Errors are the picture's.
+    static Picture read(const Request& request);
+    /// Null if it could not be read, which has been reported for another texture. Throws why it could not.
+    std::shared_ptr<const MipMap> picture(const Request& request, const SourceLocation& place);
     void make_normal_map(const Object& object, const NormalMap& map, SurfaceModels& surface);
 
     Registry& registry_;
     Diagnostics& diagnostics_;
     ColorEncoding of_scene_;
-    std::map<std::string, std::shared_ptr<const MipMap>> pictures_;  // by PlacedTexture::key
+    std::vector<Request> expected_;
+    std::map<std::string, Picture> pictures_;  // by PlacedTexture::key
 };
 
 /// Reports an object with a texture whose triangles have no texture coordinates.
