@@ -107,7 +107,7 @@ struct Renderer::Kept {
 
         const auto tiles_begin = Clock::now();
         const auto begin_image = [&](TileWorker& worker) {
-            worker.shader.begin(scene, projected, options.term, options.light);
+            worker.shader.begin(scene, projected, options.term, options.light, options.parameter);
             worker.pixels_shaded = 0;
         };
         workers.each(begin_image);

@@ -20,6 +20,7 @@ struct RenderOptions {
     /// The value written to the pixels: the intensity, or another term, stored in a film of floats. Geometric
     /// terms are those of a picture with one sample per pixel.
     Term term = Term::intensity;
+    std::span<const ShownParameter> parameter{};  // with Term::parameter: by object
     std::optional<std::size_t> light{};  // an index: that light alone, without background and surroundings
     int threads = 0;    // 0: all, but only one for a first picture that takes less time than starting the
                         // others

@@ -81,10 +81,11 @@ Rgb value_of_nothing(Term term) {
 TileShader::TileShader() { batch_.resize(k_batch_size); }
 
 void TileShader::begin(const RenderScene& scene, const ProjectedScene& projected, Term term,
-                       std::optional<std::size_t> light) {
+                       std::optional<std::size_t> light, std::span<const ShownParameter> parameter) {
     scene_ = &scene;
     projected_ = &projected;
     term_ = term;
+    parameter_ = parameter;
     has_background_ = shows_background(term, light);
     LightingContext context = lighting_context(scene, projected.camera, transmitters_);
     if (light) {
@@ -222,7 +223,8 @@ void TileShader::shade_points(std::uint32_t object, const Vec3Span& intensity) {
     if (term_ == Term::intensity) {
         brightest_ = std::max(brightest_, surface_shader_.shade(solid.surface, shaded, points_, intensity));
     } else {
-        surface_shader_.find_term(term_, solid.surface, shaded, points_, intensity);
+        const ShownParameter parameter = object < parameter_.size() ? parameter_[object] : ShownParameter{};
+        surface_shader_.find_term(term_, parameter, solid.surface, shaded, points_, intensity);
     }
     points_lit_ += points_.count;
 }

@@ -70,8 +70,8 @@ class CANDELA_EXPORT SurfaceShader {
 
     /// Writes a non-geometric term of the intensity, or one of its inputs, instead of the intensity. Slower
     /// than shade(), which it calls. Throws Error like shade().
-    void find_term(Term term, const SurfaceModels& surface, const ShadedObject& object,
-                   const SurfacePoints& points, const Vec3Span& values);
+    void find_term(Term term, const ShownParameter& parameter, const SurfaceModels& surface,
+                   const ShadedObject& object, const SurfacePoints& points, const Vec3Span& values);
 
   private:
     /// Whether each plugin's results are checked right after its call, instead of once at the end.

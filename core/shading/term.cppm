@@ -1,5 +1,11 @@
 // The values that a picture can show instead of the intensity: the intensity's terms, and its inputs.
+module;
+
+#include <cstddef>
+
 export module candela.shading:term;
+
+import candela.api;
 
 export namespace candela {
 
@@ -16,6 +22,8 @@ enum class Term {
     visibility,         // the fraction of the lights' samples that reach the point; needs shadows
     ambient_occlusion,  // the fraction of ambient light that does, of lights with occlusion rays
     normal,             // N, world space; not unit where it is interpolated between vertices
+    color,              // C_o: the object's own, or of its vertices and textures
+    parameter,          // a parameter of the reflection model; see ShownParameter
 
     background,  // where no object is visible; black elsewhere
 
@@ -28,6 +36,14 @@ enum class Term {
     facing,       // 1, or -1 where an open surface is seen from behind; 0 where there is no object
     object,       // index among the scene's, from 0; -1 where there is none
     triangle      // index in the object's mesh; -1 where there is none
+};
+
+/// The parameter that Term::parameter shows, of one object. In the unit in which the model receives it.
+struct ShownParameter {
+    static constexpr std::size_t k_none = static_cast<std::size_t>(-1);
+
+    std::size_t index = k_none;  // among the parameters of its model; k_none: it has no such parameter, 0
+    Vec3 value{};                // where no texture gives it; a single number three times
 };
 
 /// Whether a term's values at the surfaces that a pixel shows one behind the other add up like the intensity,

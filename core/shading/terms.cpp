@@ -1,6 +1,7 @@
 module;
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
@@ -11,6 +12,7 @@ import :clearing;
 import :common_material;
 import :light_visibility;
 import :term;
+import :texture;
 import candela.api;
 
 namespace candela {
@@ -23,10 +25,33 @@ void copy(const Vec3Arrays& from, std::size_t count, const Vec3Span& to) {
     std::copy_n(from.z.begin(), count, to.z);
 }
 
+void find_color(const SurfaceModels& surface, const SurfacePoints& points, const Vec3Span& values) {
+    if (points.has_color) return copy(points.color, points.count, values);
+    for (std::size_t i = 0; i < points.count; ++i)
+        values.set(i, {surface.color.r, surface.color.g, surface.color.b});
+}
+
+void find_parameter(const ShownParameter& shown, const SurfaceModels& surface, const SurfacePoints& points,
+                    const Vec3Span& values) {
+    for (std::size_t i = 0; i < points.count; ++i) values.set(i, shown.value);
+    const MaterialTextures& textures = surface.material_textures;
+    const auto first = textures.numbers.begin(), end = first + static_cast<std::ptrdiff_t>(textures.of_model);
+    const auto is_shown = [&](const TexturedNumber& number) { return number.parameter == shown.index; };
+    const bool is_single = std::count_if(first, end, is_shown) == 1;
+    const std::array channels{values.x, values.y, values.z};
+    for (auto number = first; number != end; ++number) {
+        if (!is_shown(*number)) continue;
+        const float* const textured = points.parameters[static_cast<std::size_t>(number - first)].data();
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            if (is_single || c == number->channel) std::copy_n(textured, points.count, channels[c]);
+    }
+}
+
 }  // namespace
 
-void SurfaceShader::find_term(Term term, const SurfaceModels& surface, const ShadedObject& object,
-                              const SurfacePoints& points, const Vec3Span& values) {
+void SurfaceShader::find_term(Term term, const ShownParameter& parameter, const SurfaceModels& surface,
+                              const ShadedObject& object, const SurfacePoints& points,
+                              const Vec3Span& values) {
     shade(surface, object, points, values);
     switch (term) {
         case Term::intensity:
@@ -52,6 +77,10 @@ void SurfaceShader::find_term(Term term, const SurfaceModels& surface, const Sha
             return find_ambient_visibility(points, values);
         case Term::normal:
             return copy(normal_, points.count, values);
+        case Term::color:
+            return find_color(surface, points, values);
+        case Term::parameter:
+            return find_parameter(parameter, surface, points, values);
         default:
             throw std::invalid_argument("SurfaceShader::find_term(): this term does not depend on light");
     }

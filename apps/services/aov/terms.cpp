@@ -20,6 +20,7 @@ namespace fs = std::filesystem;
 using candela::Error;
 using candela::ErrorCategory;
 using candela::Film;
+using candela::ParamType;
 using candela::Term;
 
 namespace {
@@ -50,6 +51,7 @@ constexpr KnownTerm k_terms[] = {
     {"visibility", Term::visibility, true, k_color, "visibility"},
     {"ambient_occlusion", Term::ambient_occlusion, false, k_color, "ambient_occlusion"},
     {"normal", Term::normal, false, k_vector, "N"},
+    {"color", Term::color, false, k_color, "color"},
     {"face_normal", Term::face_normal, false, k_vector, "Ng"},
     {"position", Term::position, false, k_vector, "P"},
     {"depth", Term::depth, false, {"Z"}, ""},
@@ -60,7 +62,13 @@ constexpr KnownTerm k_terms[] = {
     {"triangle", Term::triangle, false, {"triangle"}, ""},
 };
 
+/// A parameter of a reflection model.
+constexpr std::string_view k_of_material = "material.";
+
 const KnownTerm& known(const NamedTerm& named) {
+    static constexpr KnownTerm k_number{"material", Term::parameter, false, {""}, "material"};
+    static constexpr KnownTerm k_numbers{"material", Term::parameter, false, k_color, "material"};
+    if (named.term == Term::parameter) return named.is_number ? k_number : k_numbers;
     return *std::ranges::find_if(k_terms, [&](const KnownTerm& t) {
         return t.term == named.term && t.is_of_light == named.light.has_value();
     });
@@ -72,6 +80,38 @@ std::string name_of_light(const candela::Label& label) {
 }
 
 bool needs_shadows(Term term) { return term == Term::visibility || term == Term::ambient_occlusion; }
+
+bool may_be_shown(ParamType type) {
+    return type == ParamType::real || type == ParamType::rgb || type == ParamType::color;
+}
+
+/// The parameters of the objects' reflection models, in the order of the objects.
+std::vector<std::string> shown_parameters(const candela::Scene& scene) {
+    std::vector<std::string> names;
+    for (const candela::Object& object : scene.objects)
+        for (const candela::Parameter& parameter : object.reflection.parameters.schema())
+            if (may_be_shown(parameter.type) && std::ranges::find(names, parameter.name) == names.end())
+                names.push_back(parameter.name);
+    return names;
+}
+
+/// The term of one of these.
+NamedTerm parameter_term(const std::string& name, const candela::Scene& scene) {
+    NamedTerm term{std::string(k_of_material) + name, Term::parameter};
+    term.is_number = true;
+    for (const candela::Object& object : scene.objects) {
+        const candela::ParamSet& values = object.reflection.parameters;
+        const std::size_t index = values.index_of(name);
+        candela::ShownParameter& shown = term.parameter.emplace_back();
+        if (index == values.schema().size() || !may_be_shown(values.schema()[index].type)) continue;
+        const auto& number = values.runtime(scene.image.color_management)[index].number;
+        const bool is_number = values.schema()[index].type == ParamType::real;
+        shown = {index, is_number ? candela::Vec3{number[0], number[0], number[0]}
+                                  : candela::Vec3{number[0], number[1], number[2]}};
+        term.is_number &= is_number;
+    }
+    return term;
+}
 
 /// The possible words of a list: all terms, and those of each light.
 std::vector<NamedTerm> possible_terms(const candela::Scene& scene) {
@@ -91,10 +131,16 @@ std::vector<NamedTerm> possible_terms(const candela::Scene& scene) {
 
 /// The meaning of one word of a list: a term by its name, a light's by its number, or several.
 std::vector<NamedTerm> meant_by(const std::string& word, const std::vector<NamedTerm>& possible,
-                                const std::string& origin) {
+                                const candela::Scene& scene, const std::string& origin) {
     // For all lights; empty if the scene has none.
     const bool is_of_lights = word == "light" || word == "n_dot_l";
     std::vector<NamedTerm> meant;
+    if (word == "material" || word.starts_with(k_of_material)) {
+        for (const std::string& name : shown_parameters(scene))
+            if (word == "material" || word.substr(k_of_material.size()) == name)
+                meant.push_back(parameter_term(name, scene));
+        if (!meant.empty()) return meant;
+    }
     std::ranges::copy_if(possible, std::back_inserter(meant), [&](const NamedTerm& term) {
         return word == "all" || word == term.name ||
                (is_of_lights && term.light && term.name.starts_with(word + "."));
@@ -114,6 +160,8 @@ std::vector<NamedTerm> meant_by(const std::string& word, const std::vector<Named
     }
     std::vector<std::string> words{"all", "light", "n_dot_l"};
     for (const NamedTerm& term : possible) words.push_back(term.name);
+    for (const std::string& name : shown_parameters(scene))
+        words.push_back(std::string(k_of_material) + name);
     const std::string suggestion = candela::suggestion(word, words);
     throw Error(ErrorCategory::bad_request,
                 fmt::format("{}: unknown term '{}'{}; possible: {}", origin, candela::printable(word),
@@ -224,6 +272,11 @@ void map_to_colors(Term term, Planes& planes, const std::vector<float>& facing) 
         stretch(r, facing, 1, 0.1f);
         g = b = r;
     }
+    if (term == Term::parameter) {
+        const float largest = std::max({std::ranges::max(r), std::ranges::max(g), std::ranges::max(b), 1.0f});
+        for (std::vector<float>* const v : {&r, &g, &b})
+            for (float& value : *v) value /= largest;
+    }
     if (term == Term::position) {
         for (std::vector<float>* const v : {&r, &g, &b}) stretch(*v, facing, 0.1f, 1);
     }
@@ -242,7 +295,7 @@ std::vector<NamedTerm> terms_from(const std::vector<std::string>& words, const c
     const std::vector<NamedTerm> possible = possible_terms(scene);
     std::vector<NamedTerm> terms;
     for (const std::string& word : words) {
-        for (NamedTerm& term : meant_by(word, possible, origin)) add(terms, std::move(term), origin);
+        for (NamedTerm& term : meant_by(word, possible, scene, origin)) add(terms, std::move(term), origin);
     }
     return terms;
 }
@@ -279,20 +332,22 @@ std::vector<fs::path> files_of(const std::vector<NamedTerm>& terms, const fs::pa
     return files;
 }
 
-Film TermRenderer::rendered(Term term, std::optional<std::size_t> light) {
+Film TermRenderer::rendered(const NamedTerm& term) {
     Film film(scene_.image.width, scene_.image.height, candela::PixelType::real,
               candela::ColorEncoding::none);
-    candela::Renderer& renderer = candela::is_geometric(term) ? geometric_ : lit_;
-    renderer.render(scene_, film, {.term = term, .light = light, .threads = threads_});
+    candela::Renderer& renderer = candela::is_geometric(term.term) ? geometric_ : lit_;
+    renderer.render(
+        scene_, film,
+        {.term = term.term, .parameter = term.parameter, .light = term.light, .threads = threads_});
     return film;
 }
 
 Film TermRenderer::luminance() {
-    Planes light(rendered(Term::intensity));
+    Planes light(rendered({"luminance", Term::intensity}));
     auto& [r, g, b] = light.channel;
     // A background that is only a colour of the picture is not light.
     if (scene_.environment.is_uniform()) {
-        const Planes behind(rendered(Term::background));
+        const Planes behind(rendered({"background", Term::background}));
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = 0; i < r.size(); ++i) light.channel[c][i] -= behind.channel[c][i];
     }
@@ -303,9 +358,7 @@ Film TermRenderer::luminance() {
     return light.film(candela::PixelType::real, candela::ColorEncoding::none);
 }
 
-Film TermRenderer::values(const NamedTerm& term) {
-    return is_luminance(term) ? luminance() : rendered(term.term, term.light);
-}
+Film TermRenderer::values(const NamedTerm& term) { return is_luminance(term) ? luminance() : rendered(term); }
 
 Film TermRenderer::image(const NamedTerm& term, candela::PixelType pixels, LuminanceDisplay& display) {
     Film film = values(term);
@@ -317,6 +370,7 @@ Film TermRenderer::image(const NamedTerm& term, candela::PixelType pixels, Lumin
     }
     Planes planes(film);
     if (is_intensity(term.term)) return planes.film(pixels, candela::display_of(scene_));
+    if (term.term == Term::color) return planes.film(pixels, scene_.image.color_management);
     if (facing_.empty()) facing_ = std::move(Planes(values({"facing", Term::facing})).channel[0]);
     map_to_colors(term.term, planes, facing_);
     return planes.film(pixels, candela::ColorEncoding::none);
@@ -335,7 +389,8 @@ void write_with_layers(const Film& film, const std::vector<NamedTerm>& terms, Te
     for (const NamedTerm& term : terms) {
         const KnownTerm& kind = known(term);
         planes.emplace_back(renderer.values(term));
-        const std::string layer = term.light ? term.name : std::string(kind.layer);
+        const std::string layer =
+            term.light || term.term == Term::parameter ? term.name : std::string(kind.layer);
         std::size_t channels = 0;
         for (const std::string_view channel : kind.channels) {
             if (channel.empty() && channels > 0) break;

@@ -18,14 +18,17 @@ import candela.util;
 
 /// One requested term.
 struct NamedTerm {
-    std::string name;  // "diffuse", "light.lamp"
+    std::string name;  // "diffuse", "light.lamp", "material.roughness"
     candela::Term term;
-    std::optional<std::size_t> light{};  // index of the scene's light
+    std::optional<std::size_t> light{};                // index of the scene's light
+    std::vector<candela::ShownParameter> parameter{};  // of a parameter: by object
+    bool is_number = false;  // of a parameter: some model has three numbers otherwise
 };
 
-/// The terms for words: "diffuse", "light.lamp", "light.0", "light" (each light), "all". Each term once, in
-/// the order of the words. Throws candela::Error (bad_request), with a suggestion, for an unknown word;
-/// `origin` names its source.
+/// The terms for words: "diffuse", "light.lamp", "light.0", "light" (each light), "material.roughness",
+/// "material" (each parameter of the objects' reflection models), "all", which is without those. Each term
+/// once, in the order of the words. Throws candela::Error (bad_request), with a suggestion, for an unknown
+/// word; `origin` names its source.
 std::vector<NamedTerm> terms_from(const std::vector<std::string>& words, const candela::Scene& scene,
                                   const std::string& origin);
 
@@ -56,7 +59,7 @@ class TermRenderer {
     candela::Film image(const NamedTerm& term, candela::PixelType pixels, LuminanceDisplay& display);
 
   private:
-    candela::Film rendered(candela::Term term, std::optional<std::size_t> light = {});
+    candela::Film rendered(const NamedTerm& term);
     candela::Film luminance();
 
     const candela::RenderScene& scene_;

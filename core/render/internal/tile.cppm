@@ -37,7 +37,7 @@ class TileShader {
     /// Sets the scene for the following calls and what is shown of it (see RenderOptions), and resets the
     /// counts.
     void begin(const RenderScene& scene, const ProjectedScene& projected, Term term = Term::intensity,
-               std::optional<std::size_t> light = {});
+               std::optional<std::size_t> light = {}, std::span<const ShownParameter> parameter = {});
 
     Term term() const { return term_; }
     const ProjectedScene& projected() const { return *projected_; }
@@ -69,6 +69,7 @@ class TileShader {
     const RenderScene* scene_ = nullptr;
     const ProjectedScene* projected_ = nullptr;
     Term term_ = Term::intensity;
+    std::span<const ShownParameter> parameter_;
     bool has_background_ = true;
     std::vector<Transmitter> transmitters_;
     SurfaceShader surface_shader_;

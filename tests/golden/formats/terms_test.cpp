@@ -181,6 +181,8 @@ TEST_CASE("terms of a square seen head on match values computed by hand") {
     CHECK(at("N.X") == 0);
     CHECK(at("N.Y") == 0);
     CHECK(at("N.Z") == 1);
+    CHECK(at("color.R") == 1);
+    CHECK(at("color.G") == Approx(0.2));
     CHECK(at("Ng.Z") == 1);
     CHECK(at("Z") == Approx(4.0));
     CHECK(at("P.X") == Approx(x));
@@ -200,10 +202,50 @@ TEST_CASE("terms of a square seen head on match values computed by hand") {
     CHECK(beyond("luminance") == 0);
     CHECK(beyond("light.sun.R") == 0);
     CHECK(beyond("diffuse.R") == 0);
+    CHECK(beyond("color.R") == 0);
     CHECK(std::isinf(beyond("Z")));
     CHECK(beyond("facing") == 0);
     CHECK(beyond("object") == -1);
     CHECK(beyond("triangle") == -1);
+}
+
+TEST_CASE("colours and parameters of materials are terms: textures, and values where there are none") {
+    const fs::path folder = scratch_directory();
+    const std::string steps{0,         0,         0,         85,        85,        85,
+                            char(170), char(170), char(170), char(255), char(255), char(255)};
+    write_file(folder / "steps.ppm", "P6\n4 1\n255\n" + steps);
+    std::string scene = k_square;
+    const auto replace = [&](const std::string& from, const std::string& to) {
+        scene.replace(scene.find(from), from.size(), to);
+    };
+    replace("\"flat\"", "\"phong\"");
+    replace("color = [255, 51, 0]", "color = { texture = \"steps.ppm\", scale = [1, 0.5, 0.25] }");
+    replace("ks = 0.0",
+            "ks = [0.5, 0.25, 0]\nshininess = { texture = \"steps.ppm\", channel = \"g\", scale = 30, offset "
+            "= 2 }");
+    scene +=
+        "[[object]]\ntype = \"cube\"\nsize = 0.2\nposition = [0, 0.6, 0.5]\nreflection = \"lambert\"\n"
+        "[object.material]\nkd = 0.125\n";
+    const Layers layers = render_layers(folder, scene, "color,material");
+    // The face of a metre is seen from four metres, through 20 degrees.
+    const double width = 60 / (8 * std::tan(10 * 3.14159265358979 / 180));
+    for (const int x : {16, 21, 30, 38, 43}) {
+        INFO(x);
+        const double u = 0.5 + (x + 0.5 - 30) / width;
+        const double texel = (4 * u - 0.5) / 3;  // linear between the centres of the texels
+        CHECK(layers.at("color.R", x, 30) == Approx(texel).margin(2e-4));
+        CHECK(layers.at("color.G", x, 30) == Approx(0.5 * texel).margin(2e-4));
+        CHECK(layers.at("color.B", x, 30) == Approx(0.25 * texel).margin(2e-4));
+        CHECK(layers.at("material.shininess", x, 30) == Approx(2 + 30 * texel).margin(6e-3));
+        CHECK(layers.at("material.kd.R", x, 30) == Approx(0.8));
+        CHECK(layers.at("material.ks.R", x, 30) == 0.5f);
+        CHECK(layers.at("material.ks.G", x, 30) == 0.25f);
+    }
+    // Lambert's model has neither.
+    CHECK(layers.at("material.kd.R", 30, 2) == 0.125f);
+    CHECK(layers.at("material.ks.R", 30, 2) == 0);
+    CHECK(layers.at("material.shininess", 30, 2) == 0);
+    CHECK(layers.at("material.shininess", 1, 30) == 0);
 }
 
 TEST_CASE("terms add up to the picture, and so do lights, surroundings and background") {
