@@ -7,7 +7,9 @@ module;
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -43,6 +45,26 @@ Node factor_of(const ParameterTexture& texture, const Parameter& p, const Source
     ArrayNode channels;
     for (const float value : {sum.x, sum.y, sum.z}) channels.push_back({place, within(value)});
     return {place, std::move(channels)};
+}
+
+/// The tables of a textured parameter: one, or the list of a product's factors. Empty if it has a value.
+std::vector<const Node*> tables_in(const Node& node) {
+    if (node.table() != nullptr) return {&node};
+    std::vector<const Node*> factors;
+    const ArrayNode* const list = node.array();
+    if (list == nullptr || std::ranges::none_of(*list, [](const Node& n) { return n.table() != nullptr; }))
+        return factors;
+    for (const Node& factor : *list) factors.push_back(&factor);
+    return factors;
+}
+
+/// The product where all texels are 1.
+Node factor_of(std::span<const ParameterTexture> factors, const Parameter& p, const SourceLocation& place) {
+    if (factors.size() == 1) return factor_of(factors.front(), p, place);
+    float product = 1;
+    for (const ParameterTexture& factor : factors)
+        product *= std::clamp(factor.scale.x + factor.offset.x, p.minimum, p.maximum);
+    return {place, shortest(product)};
 }
 
 }  // namespace
@@ -90,23 +112,29 @@ std::vector<ParameterTexture> ModelChooser::take_textures(
     const std::function<std::string(const Parameter&)>& why_not) {
     std::vector<ParameterTexture> textures;
     std::vector<std::string> broken;
+    const bool is_of_every_material = &parameters == own_tables().material.schema().get();
     for (const Parameter& p : parameters) {
         TableNode::Entry* const entry = material.find(p.name);
-        const TableNode* const table = entry != nullptr ? entry->node.table() : nullptr;
-        if (table == nullptr) continue;
+        const std::vector<const Node*> tables =
+            entry != nullptr ? tables_in(entry->node) : std::vector<const Node*>();
+        if (tables.empty()) continue;
         const std::string subject = fmt::format("'{}' in {}", p.name, where);
-        std::optional<ParameterTexture> texture;
-        if (const std::string why = why_not(p); why.empty())
-            texture = texture_in(*table, p, subject, entry->node.place);
-        else
+        std::vector<ParameterTexture> factors;
+        if (const std::string why = why_not(p); !why.empty())
             tables_.diagnostics().error(entry->node.place,
                                         fmt::format("{} cannot have a texture: {}", subject, why));
-        if (texture) {
+        else if (tables.size() > 1 && !(is_of_every_material && p.name == "opacity"))
+            tables_.diagnostics().error(
+                entry->node.place, fmt::format("{} cannot have {} textures: only 'opacity' may be a product",
+                                               subject, tables.size()));
+        else
+            factors = factors_in(tables, p, subject);
+        if (factors.size() == tables.size()) {
             if (p.type == ParamType::color)
                 std::erase_if(material.entries, [&](const auto& e) { return e.key == p.name; });
             else
-                entry->node = factor_of(*texture, p, entry->node.place);
-            textures.push_back(std::move(*texture));
+                entry->node = factor_of(factors, p, entry->node.place);
+            std::ranges::move(factors, std::back_inserter(textures));
         } else {
             broken.push_back(p.name);
         }
@@ -114,6 +142,24 @@ std::vector<ParameterTexture> ModelChooser::take_textures(
     std::erase_if(material.entries,
                   [&](const auto& e) { return std::ranges::find(broken, e.key) != broken.end(); });
     return textures;
+}
+
+/// Those that are valid; the others have been reported.
+std::vector<ParameterTexture> ModelChooser::factors_in(std::span<const Node* const> tables,
+                                                       const Parameter& parameter, const std::string& where) {
+    std::vector<ParameterTexture> factors;
+    for (const Node* const node : tables) {
+        if (node->table() == nullptr) {
+            tables_.diagnostics().error(
+                node->place,
+                fmt::format("a factor of {} is {}, not a texture or an attribute", where, description(*node)),
+                "write { texture = \"...\" } or { attribute = \"...\" }, and a number as 'scale' of one");
+            continue;
+        }
+        if (auto texture = texture_in(*node->table(), parameter, where, node->place))
+            factors.push_back(std::move(*texture));
+    }
+    return factors;
 }
 
 /// `where`: the parameter, for messages. Nothing if the table is invalid, which has been reported.

@@ -242,7 +242,8 @@ Table<CommonMaterial> material() {
              .omitted_by_default(),
          field(Type::real, "opacity",
                "the fraction of what is behind that the surface covers; below 1, the surface is drawn from "
-               "both sides; a texture may give it, such as the alpha of a picture: channel = \"a\"",
+               "both sides; a texture may give it, such as the alpha of a picture: channel = \"a\"; a list "
+               "of textures or attributes is their product",
                &CommonMaterial::opacity)
              .range(0, 1)
              .omitted_by_default(),

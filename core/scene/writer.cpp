@@ -1,6 +1,7 @@
 module;
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -212,8 +213,13 @@ class Writer {
     }
 
     static std::map<std::string, std::string> texts_of(const std::vector<ParameterTexture>& textures) {
+        std::map<std::string, std::vector<std::string>> factors;
+        for (const ParameterTexture& texture : textures)
+            factors[texture.parameter].push_back(text_of(texture));
         std::map<std::string, std::string> texts;
-        for (const ParameterTexture& texture : textures) texts.emplace(texture.parameter, text_of(texture));
+        for (const auto& [parameter, tables] : factors)
+            texts.emplace(parameter,
+                          tables.size() == 1 ? tables.front() : fmt::format("[{}]", fmt::join(tables, ", ")));
         return texts;
     }
 

@@ -60,12 +60,14 @@ void find_opacity(const SurfaceModels& surface, SurfacePoints& points, float* op
         std::fill_n(opacity, points.count, *uniform);
         return;
     }
-    if (points.parameters.empty()) points.parameters.emplace_back(k_batch_size);
+    const std::size_t factors = surface.opacity_textures.arrays();
+    while (points.parameters.size() < factors) points.parameters.emplace_back(k_batch_size);
     evaluate(surface.opacity_textures, points.filled, textured(points), points.parameters);
-    const float* const found = points.parameters.front().data();
-    const float cutoff = surface.opacity_cutoff;
-    for (std::size_t i = 0; i < points.count; ++i)
-        opacity[i] = cutoff <= 0 ? found[i] : found[i] >= cutoff ? 1.0f : 0.0f;
+    std::copy_n(points.parameters.front().data(), points.count, opacity);
+    for (std::size_t k = 1; k < factors; ++k)
+        for (std::size_t i = 0; i < points.count; ++i) opacity[i] *= points.parameters[k][i];
+    if (const float cutoff = surface.opacity_cutoff; cutoff > 0)
+        for (std::size_t i = 0; i < points.count; ++i) opacity[i] = opacity[i] >= cutoff ? 1.0f : 0.0f;
 }
 
 }  // namespace candela

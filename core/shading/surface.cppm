@@ -59,7 +59,7 @@ struct CANDELA_EXPORT SurfaceModels {
     float occlusion = 1;  // multiplies what they reflect of ambient light, where no texture does
     float opacity = 1;    // of all points, where no texture gives it
     float opacity_cutoff = 0;             // above 0: points with less are absent, the others opaque
-    MaterialTextures opacity_textures{};  // with one number, or none
+    MaterialTextures opacity_textures{};  // its factors, or none
     bool has_channels = false;            // these textures need channels of the vertices
     std::string shading_plugin;
     std::unique_ptr<ShadingModel> shading;

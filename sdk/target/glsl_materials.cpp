@@ -93,14 +93,19 @@ std::string text_of(const ExportedScene& scene, const ExportedObject& object, bo
 
 std::string opacity_text_of(const ExportedObject& object) {
     if (object.opacity_numbers.empty()) return "";
-    const ExportedTexturedNumber& number = object.opacity_numbers.front();
+    std::string texels, product;
+    for (std::size_t i = 0; i < object.opacity_numbers.size(); ++i) {
+        const ExportedTexturedNumber& number = object.opacity_numbers[i];
+        const std::string texel = i == 0 ? "texel" : fmt::format("texel_{}", i + 1);
+        texels += fmt::format("    {} {} = {};\n", is_of_vertices(number) ? "float" : "vec3", texel,
+                              texel_text(object, number));
+        product += (i == 0 ? "" : " * ") + number_text(number, texel);
+    }
     return reading_text(object) + fmt::format(
                                       "{}#define TEXTURED_OPACITY\n"
                                       "// {}: a texture gives its opacity.\n"
-                                      "float textured_opacity() {{\n    {} texel = {};\n    return {};\n}}\n",
-                                      k_number_of, ascii_identifier(object.label),
-                                      is_of_vertices(number) ? "float" : "vec3", texel_text(object, number),
-                                      number_text(number, "texel"));
+                                      "float textured_opacity() {{\n{}    return {};\n}}\n",
+                                      k_number_of, ascii_identifier(object.label), texels, product);
 }
 
 bool takes_opacity_from_channels(const ExportedObject& object) {
@@ -170,6 +175,11 @@ std::vector<std::string> textured_opacities(const ExportedScene& scene) {
                 "the opacity of object {} depends on numbers of its vertices or on their second texture "
                 "coordinates, which shaders read only where light is evaluated for each fragment; use "
                 "shading \"phong\" for all objects",
+                object.label));
+        if (scene.has_shadows && object.casts_shadows && object.opacity_numbers.size() > 1)
+            throw std::runtime_error(fmt::format(
+                "the shadows of shaders do not read the opacity of object {}, which is a product; set "
+                "casts_shadows = false, or draw the scene with --no-shadows",
                 object.label));
         if (scene.has_shadows && object.casts_shadows && takes_opacity_from_channels(object))
             throw std::runtime_error(fmt::format(

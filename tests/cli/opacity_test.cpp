@@ -36,6 +36,14 @@ TEST_CASE("mistakes in opacity are reported at their places") {
     expect(with_material("opacity_cutoff = { texture = \"dot.ppm\" }", d), 3,
            {"'opacity_cutoff' in [object.material] of 'ball' cannot have a texture"});
     expect(with_material("opacity = { texture = \"dot.ppm\", channel = \"x\" }", d), 3, {"'channel'"});
+    expect(with_material("opacity = [{ texture = \"dot.ppm\" }, 0.5]", d), 3,
+           {"scene.toml:14:37: error: a factor of 'opacity' in [object.material] of 'ball' is the number 0.5",
+            "'scale' of one"});
+    expect(with_material("opacity = [{ texture = \"dot.ppm\" }, { attribute = \"\" }]", d), 3,
+           {"'attribute' of 'opacity' in [object.material] of 'ball' is empty"});
+    expect(with_material("emission = [{ texture = \"dot.ppm\" }, { texture = \"dot.ppm\" }]", d), 3,
+           {"'emission' in [object.material] of 'ball' cannot have 2 textures: only 'opacity' may be a "
+            "product"});
     expect(with_material("alpha = 0.5", d), 3, {"'alpha'", "did you mean 'opacity'?"});
     expect(with_material("opacty = 0.5", d), 3, {"'opacty'", "did you mean 'opacity'?"});
     expect(with_material("alpha_cutoff = 0.5", d), 3, {"did you mean 'opacity_cutoff'?"});

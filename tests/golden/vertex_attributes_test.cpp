@@ -110,6 +110,32 @@ TEST_CASE("golden: the alpha of the vertices may be an object's opacity") {
         });
 }
 
+TEST_CASE("golden: an opacity that is a product covers by all of its factors") {
+    // The picture's green grows to the bottom, the vertices' alpha to the right.
+    const auto folder = scratch_directory();
+    write_file(folder / "p.png", picture_png());
+    GltfSquare file;
+    file.primitive()["attributes"]["COLOR_0"] =
+        file.floats("VEC4", {1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0});
+    write_file(folder / "a.glb", file.glb());
+    const auto covered = [&](const char* more) {
+        return render_floats(
+            folder, scene("a.glb",
+                          fmt::format("kd = 1\nopacity = [{{ texture = \"p.png\", channel = \"g\" }}, {{ "
+                                      "attribute = \"color\", channel = \"a\", scale = 0.5 }}]\n{}",
+                                      more),
+                          "color = [255, 0, 0]"));
+    };
+    const auto opacity = [](int x, int y) { return green(y) * 0.5 * across(x); };
+    require_pixels(
+        covered(""), [&](int x, int y) { return Channels{opacity(x, y), 0, 1 - opacity(x, y)}; }, 3e-4);
+    SECTION("and the product is what a cutoff cuts") {
+        require_pixels(covered("opacity_cutoff = 0.101"), [&](int x, int y) {
+            return opacity(x, y) >= 0.101 ? Channels{1, 0, 0} : Channels{0, 0, 1};
+        });
+    }
+}
+
 TEST_CASE("golden: a model with prepared constants has them at each point") {
     // Where N = L = V, and F(0) = 0.04: Walter et al. (2007), D = 1 / (pi alpha^2), G = 1; times pi / 4.
     const Image image = of_ply("kd = 0\nks = 1\nior = 1.5\nroughness = { attribute = \"rough\" }",

@@ -140,6 +140,25 @@ TEST_CASE("verify: programs have an opacity that the vertices give, in shaders w
     verify(all, "cpp");
 }
 
+TEST_CASE("verify: programs have an opacity that is a product of pictures and of numbers of the vertices") {
+    const fs::path folder = scratch_directory();
+    const std::string every_rate =
+        objects("",
+                "opacity = [{ attribute = \"color\", channel = \"a\" }, { texture = "
+                "\"soft.ppm\", channel = \"g\" }]\nkd = { texture = \"soft.ppm\" }\n");
+    const fs::path of_fragments = scene(folder, every_rate.substr(0, every_rate.find("[[object]]", 1)));
+    for (const char* const target : {"opengl", "webgl"}) verify(of_fragments, target);
+    verify(scene(folder, every_rate), "cpp");
+    const fs::path in_shadow =
+        scene(folder, "[shadows]\nenabled = true\n" +
+                          objects("",
+                                  "opacity = [{ texture = \"soft.ppm\" }, { texture = \"soft.ppm\", channel "
+                                  "= \"g\" }]\n"));
+    expect(
+        run_candela({"generate", in_shadow.string(), "--target", "webgl", "-o", (folder / "page").string()}),
+        1, {"the opacity of object phong, which is a product", "--no-shadows"});
+}
+
 TEST_CASE("generate: programs of scenes without numbers of the vertices do not mention them") {
     for (const char* const target : {"cpp", "opengl"}) {
         const fs::path folder = scratch_directory(), program = folder / target;

@@ -243,6 +243,14 @@ TEST_CASE("scenes that differ in one value are different") {
                 {.parameter = "opacity", .file = file, .channel = candela::TextureChannel::alpha}};
             s.objects[1].common.occlusion = 0.75f;
         },
+        [](Scene& s) {
+            s.objects[1].common.textures = {
+                {.parameter = "opacity",
+                 .file = std::string(CANDELA_TEST_SOURCE) + "/LICENSE",
+                 .channel = candela::TextureChannel::alpha},
+                {.parameter = "opacity", .attribute = "color", .scale = {0.5f, 0.5f, 0.5f}}};
+            s.objects[1].common.opacity = 0.5f;
+        },
         [](Scene& s) { s.objects[1].shading.name = "flat"; },
         [](Scene& s) { s.objects[1].reflection.parameters.set("kd", Vec3{0.1f, 0.2f, 0.3f}); },
     };

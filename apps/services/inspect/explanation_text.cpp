@@ -104,11 +104,13 @@ class Writer {
         if (!surface.is_see_through() && fragment.layer == 0) return;
         std::string remark;
         if (!candela::uniform_opacity(surface)) {
-            const auto texture =
-                std::ranges::find(object.common.textures, "opacity", &candela::ParameterTexture::parameter);
-            remark = texture->attribute.empty()
-                         ? "  texture " + std::filesystem::path(texture->file).filename().string()
-                         : "  " + attribute_text(*texture);
+            for (const candela::ParameterTexture& factor : object.common.textures) {
+                if (factor.parameter != "opacity") continue;
+                remark += remark.empty() ? "  " : " times ";
+                remark += factor.attribute.empty()
+                              ? "texture " + std::filesystem::path(factor.file).filename().string()
+                              : attribute_text(factor);
+            }
         }
         if (surface.opacity_cutoff > 0)
             remark +=

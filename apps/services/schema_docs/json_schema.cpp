@@ -82,12 +82,23 @@ Json textured_schema(const Parameter& p) {
             {"default", schema["default"]}};
 }
 
+/// Adds the list of tables whose product the value may be.
+Json with_product(Json textured) {
+    Json factors = Json::array();
+    for (const char* const table : {k_texture, k_attribute})
+        factors.push_back({{"$ref", fmt::format("#/definitions/{}", table)}});
+    textured["anyOf"].push_back({{"type", "array"}, {"items", {{"anyOf", factors}}}, {"minItems", 1}});
+    return textured;
+}
+
 /// Adds the keys that every material has, unless its models have parameters of that name.
 void add_common(PluginKind kind, Json& properties) {
     if (kind != PluginKind::reflection) return;
     for (const Parameter& p : material_schema().parameters)
         if (!properties.contains(p.name))
-            properties[p.name] = takes_texture(p) ? textured_schema(p) : parameter_schema(p);
+            properties[p.name] = p.name == "opacity" ? with_product(textured_schema(p))
+                                 : takes_texture(p)  ? textured_schema(p)
+                                                     : parameter_schema(p);
 }
 
 /// A list of values of the parameter's type.

@@ -143,7 +143,7 @@ struct ExportedObject {
     float opacity = 1;         // the fraction of what is behind that it covers; at each sample, whatever the
                                // shading model
     float opacity_cutoff = 0;  // above 0: opaque where its opacity is at least this, absent elsewhere
-    std::span<const ExportedTexturedNumber> opacity_numbers{};  // one, if it has a texture, or none
+    std::span<const ExportedTexturedNumber> opacity_numbers{};  // the factors of its opacity, or none
     /// Whether something may be seen through it.
     bool is_see_through() const noexcept {
         return !opacity_numbers.empty() || (opacity_cutoff > 0 ? opacity < opacity_cutoff : opacity < 1);

@@ -3,6 +3,7 @@ module;
 #include <functional>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,8 @@ class ModelChooser {
                                                 const std::string& where);
     /// Takes the entries that do not belong to the model.
     CommonMaterial take_common(TableNode& material, const PluginFile& plugin, const TableContext& context);
+    std::vector<ParameterTexture> factors_in(std::span<const Node* const> tables, const Parameter& parameter,
+                                             const std::string& where);
     std::optional<ParameterTexture> texture_in(const TableNode& table, const Parameter& parameter,
                                                const std::string& where, const SourceLocation& place);
     std::optional<Named> model_in_scene(const TableNode& object);

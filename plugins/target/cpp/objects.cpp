@@ -130,11 +130,13 @@ void CppObjects::add_object(std::size_t index) {
     }
     if (!object.opacity_numbers.empty()) {
         text += fmt::format("        o.textured_opacity = {};\n", textured_opacity_count_);
-        const ExportedTexturedNumber& number = object.opacity_numbers.front();
+        std::string product;
+        for (const ExportedTexturedNumber& number : object.opacity_numbers)
+            product += (product.empty() ? "" : " * ") +
+                       number_text(number, texel_text(number, "opacity_place(o, triangle, b, is_seen)"));
         textured_opacities_ +=
             fmt::format("    if (o.textured_opacity == {})  // {}\n        opacity = {};\n",
-                        textured_opacity_count_++, ascii_identifier(object.label),
-                        number_text(number, texel_text(number, "opacity_place(o, triangle, b, is_seen)")));
+                        textured_opacity_count_++, ascii_identifier(object.label), product);
     }
     if (casts_shadows(scene_)) {
         if (!object.casts_shadows) text += "        o.casts_shadows = false;\n";

@@ -244,6 +244,11 @@ void TextureMaps::add_color(const ExportedObject& object, Json& material) {
     for (std::size_t c = 0; c < 3; ++c)
         sources.push_back({.channel = &k_color[c], .number = color.empty() ? nullptr : &color[c], .mean = 1});
     if (!opacity.empty()) {
+        if (opacity.size() > 1)
+            files_.approximate(
+                fmt::format("the opacity of object {}, which is a product, has its first texture only",
+                            object.label)
+                    .c_str());
         if (!is_placed_like(opacity.front(), placed))
             files_.approximate(
                 fmt::format("the opacity of object {} is placed like its colour", object.label).c_str());

@@ -20,25 +20,30 @@ Cover::Cover(const ExportedScene& scene, std::size_t object, FileSink& files) {
     const ExportedObject& of = scene.objects[object];
     if (!of.is_see_through()) return;
     const float cutoff = of.opacity_cutoff;
-    if (!of.opacity_numbers.empty()) {
-        has_texture_ = true;
-        pattern_ =
-            "uv_mapping pigment_pattern { " +
-            image_map_of(scene, of.opacity_numbers.front(), fmt::format("opacity_{}.ppm", object), files) +
-            " }";
-        clear_ = cutoff;
-        full_ = cutoff > 0 ? cutoff : 1;
-        return;
+    if (cutoff > 0 && of.opacity_numbers.size() > 1)
+        files.approximate(
+            fmt::format("the opacity of object {} is cut off factor by factor", of.label).c_str());
+    for (std::size_t i = 0; i < of.opacity_numbers.size(); ++i) {
+        const std::string name =
+            i == 0 ? fmt::format("opacity_{}.ppm", object) : fmt::format("opacity_{}_{}.ppm", object, i + 1);
+        factors_.push_back({.pattern = "uv_mapping pigment_pattern { " +
+                                       image_map_of(scene, of.opacity_numbers[i], name, files) + " }",
+                            .clear = cutoff,
+                            .full = cutoff > 0 ? cutoff : 1});
     }
-    pattern_ = "average";
-    full_ = cutoff > 0 ? 0 : of.opacity;  // below the cutoff it is absent
-    clear_ = 1 - full_;
+    has_texture_ = !factors_.empty();
+    if (has_texture_) return;
+    const float full = cutoff > 0 ? 0 : of.opacity;  // below the cutoff it is absent
+    factors_.push_back({.pattern = "average", .clear = 1 - full, .full = full});
 }
 
 std::string Cover::over(const std::string& texture) const {
-    return fmt::format(
-        "{} texture_map {{ [{} pigment {{ rgbt 1 }} finish {{ ambient 0 diffuse 0 }}] [{} {}] }}", pattern_,
-        clear_, full_, texture);
+    std::string covered = texture;
+    for (const Factor& factor : factors_)
+        covered = fmt::format(
+            "{} texture_map {{ [{} pigment {{ rgbt 1 }} finish {{ ambient 0 diffuse 0 }}] [{} {}] }}",
+            factor.pattern, factor.clear, factor.full, covered);
+    return covered;
 }
 
 Material Cover::over(const Material& material, const std::string& name) const {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "candela/target.h"
 #include "material.h"
@@ -13,10 +14,10 @@ namespace candela::povray_target {
 /// on an opaque surface; a texture map between a clear texture and the object's weighs the light of both.
 class Cover {
   public:
-    /// Writes the picture that gives the object's opacity, if there is one, to a file.
+    /// Writes the pictures that give the object's opacity to files.
     Cover(const ExportedScene& scene, std::size_t object, FileSink& files);
 
-    bool is_opaque() const { return pattern_.empty(); }
+    bool is_opaque() const { return factors_.empty(); }
     bool has_texture() const { return has_texture_; }
 
     /// The material with this cover. Its textures, which may have layers, are declared under names that begin
@@ -26,8 +27,11 @@ class Cover {
     std::string over(const std::string& texture) const;
 
   private:
-    std::string pattern_;         // empty if it is opaque
-    float clear_ = 0, full_ = 0;  // of the map: places, or weights
+    struct Factor {
+        std::string pattern;
+        float clear = 0, full = 0;  // of the map: places, or weights
+    };
+    std::vector<Factor> factors_;  // none if it is opaque
     bool has_texture_ = false;
 };
 

@@ -39,6 +39,10 @@ TEST_CASE("target/povray: both sides of a see-through ball cover their part of w
     CHECK(through_a_ball(folder, "opacity = 0.25") == std::array{112, 143});
     // 51 / 255 = 0.2; 1 - 0.8^2 = 0.36, and 0.64 is left.
     CHECK(through_a_ball(folder, "opacity = { texture = \"dot.ppm\" }") == std::array{92, 163});
+    // 0.2 * 0.4 = 0.08, both by pictures; 1 - 0.92^2 = 0.1536.
+    CHECK(through_a_ball(
+              folder, "opacity = [{ texture = \"dot.ppm\" }, { texture = \"dot.ppm\", channel = \"g\" }]") ==
+          std::array{39, 216});
     SECTION("and a cut-out is opaque or absent") {
         CHECK(through_a_ball(folder, "opacity = 0.25\nopacity_cutoff = 0.3") == std::array{0, 255});
         const std::string texture = "opacity = { texture = \"dot.ppm\" }\nopacity_cutoff = ";
