@@ -74,6 +74,33 @@ TEST_CASE("the alpha of a glTF file's vertices is opacity where its material ble
     CHECK(holds(mask, "opacity_cutoff = 0.5\n"));
 }
 
+TEST_CASE("the alpha of a glTF file's vertices multiplies that of its picture and of its colour") {
+    const Folder folder;
+    GltfSquare file;
+    file.primitive()["attributes"]["COLOR_0"] =
+        file.floats("VEC4", {1, 1, 1, 0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 0});
+    file.pbr() = {{"metallicFactor", 0},
+                  {"baseColorFactor", {1, 1, 1, 0.75}},
+                  {"baseColorTexture", file.texture(picture())}};
+    file.material()["alphaMode"] = "MASK";
+    const std::string vertices = "{ attribute = \"color\", channel = \"a\", scale = 0.75 }";
+    folder.write("a.glb", file.glb());
+    const std::string scene = imported(folder, "a.glb");
+    CHECK(holds(scene, ", channel = \"a\" }, " + vertices + "]\nopacity_cutoff = 0.5\n"));
+    SECTION("a picture of one alpha is a number") {
+        GltfSquare even = file;
+        even.pbr()["baseColorTexture"] = even.texture(png(2, 1, {{51, 102, 255, 51}, {10, 20, 30, 51}}));
+        folder.write("b.glb", even.glb());
+        CHECK(
+            holds(imported(folder, "b.glb"), "= { attribute = \"color\", channel = \"a\", scale = 0.15 }\n"));
+    }
+    SECTION("without texture coordinates, the vertices' alone is left") {
+        file.primitive()["attributes"].erase("TEXCOORD_0");
+        folder.write("c.glb", file.glb());
+        CHECK(holds(imported(folder, "c.glb"), "= " + vertices + "\n"));
+    }
+}
+
 TEST_CASE("d, Tr and map_d of MTL files are opacity") {
     const Folder folder;
     folder.write("a.obj", k_mesh);

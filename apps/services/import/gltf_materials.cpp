@@ -219,30 +219,30 @@ void Materials::add_opacity(const Json& from, const Json& colors, const char* te
     // Where the colour has no texture, that has been noted.
     const auto map = to.color_map ? textures_.texture(colors, texture, name) : std::nullopt;
     const bool is_opaque = !map || (map->image->means.is_opacity_equal && map->image->means.opacity == 1);
-    if (is_opaque && has_vertex_alpha(from)) {
-        importing::gltf::add(to, "opacity", {scale});
-        to.maps.push_back({.parameter = "opacity", .attribute = "color", .channel = "a", .scale = {scale}});
-        if (mode == "MASK") importing::gltf::add(to, "opacity_cutoff", {std::min(cutoff, 1.0)});
-        return;
-    }
-    if (is_opaque && (mode == "MASK" ? scale >= cutoff : scale == 1)) return;
-    add(map, Channel::alpha, "opacity", {scale}, {0}, to);
+    const bool has_factors = has_vertex_alpha(from);
+    if (is_opaque && !has_factors && (mode == "MASK" ? scale >= cutoff : scale == 1)) return;
+    // A product has the factor at the vertices: pictures are left out of files without texture coordinates.
+    const bool is_product = has_factors && map && !map->image->means.is_opacity_equal && scale > 0;
+    add(map, Channel::alpha, "opacity", {is_product ? 1 : scale}, {0}, to);
+    if (has_factors)
+        to.maps.push_back({.parameter = "opacity",
+                           .attribute = "color",
+                           .channel = "a",
+                           .scale = {is_product ? scale : to.values.back().second.front()}});
     if (mode == "MASK") importing::gltf::add(to, "opacity_cutoff", {std::min(cutoff, 1.0)});
 }
 
 bool Materials::has_vertex_alpha(const Json& material) const {
     const auto number = static_cast<std::size_t>(&material - &array_of(json_, "materials").front());
-    bool has_some = false;
-    for (const Json& mesh : array_of(json_, "meshes")) {
-        for (const Json& primitive : array_of(mesh, "primitives")) {
-            if (index_of(primitive, "material") != number) continue;
-            const auto colors = index_of(object_of(primitive, "attributes"), "COLOR_0");
-            const Json* const accessor = element(array_of(json_, "accessors"), colors);
-            if (accessor == nullptr || text_of(*accessor, "type") != "VEC4") return false;
-            has_some = true;
-        }
-    }
-    return has_some;
+    const auto has_alpha = [&](const Json& primitive) {
+        if (index_of(primitive, "material") != number) return false;
+        const auto colors = index_of(object_of(primitive, "attributes"), "COLOR_0");
+        const Json* const accessor = element(array_of(json_, "accessors"), colors);
+        return accessor != nullptr && text_of(*accessor, "type") == "VEC4";
+    };
+    return std::ranges::any_of(array_of(json_, "meshes"), [&](const Json& mesh) {
+        return std::ranges::any_of(array_of(mesh, "primitives"), has_alpha);
+    });
 }
 
 double Materials::direction_in(const Textures::Placed& map) {

@@ -36,7 +36,7 @@ class Materials {
     /// `colors`: the part of the material that has the texture of its colour, whose alpha counts.
     void add_opacity(const Json& from, const Json& colors, const char* texture, double factor,
                      const std::string& name, Material& to);
-    /// Whether all triangles of a material have an alpha at their vertices, which multiplies its own.
+    /// Whether triangles of a material have an alpha at their vertices, which multiplies its own.
     bool has_vertex_alpha(const Json& material) const;
     void add_occlusion(const Json& from, const std::string& name, Material& to);
     /// The mean angle in the texture of KHR_materials_anisotropy, in radians.

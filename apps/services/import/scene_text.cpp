@@ -1,6 +1,7 @@
 #include "import/scene_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -222,10 +223,13 @@ class Writer {
             add("shininess", "40.0");
         } else {
             for (const auto& [name, value] : material->values) {
-                const auto map = std::ranges::find(material->maps, name, &ParameterMap::parameter);
-                const bool varies =
-                    map != material->maps.end() && (setting_.is_textured || !map->attribute.empty());
-                add(name, varies ? text_of(*map) : numbers_text(value));
+                std::vector<std::string> factors;
+                for (const ParameterMap& map : material->maps)
+                    if (map.parameter == name && (setting_.is_textured || !map.attribute.empty()))
+                        factors.push_back(text_of(map));
+                add(name, factors.empty()       ? numbers_text(value)
+                          : factors.size() == 1 ? factors.front()
+                                                : fmt::format("[{}]", fmt::join(factors, ", ")));
             }
             add_emission(*material);
         }
