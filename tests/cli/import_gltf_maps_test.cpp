@@ -247,6 +247,31 @@ TEST_CASE("a map of the base colour is placed by its transform, and multiplied b
     });
 }
 
+TEST_CASE("a clear coat whose normals are not its surface's is noted") {
+    const auto said = [](bool has_map, bool has_coat_map, double scale, double factor = 1) {
+        const Folder folder;
+        GltfSquare file;
+        const auto map = file.texture(png(2, 1, {{128, 128, 255, 255}, {200, 128, 220, 255}}));
+        auto scaled = map;
+        if (scale != 1) scaled["scale"] = scale;
+        if (has_map) file.material()["normalTexture"] = map;
+        file.material()["extensions"]["KHR_materials_clearcoat"] = {{"clearcoatFactor", factor}};
+        if (has_coat_map)
+            file.material()["extensions"]["KHR_materials_clearcoat"]["clearcoatNormalTexture"] = scaled;
+        folder.write("a.glb", file.glb());
+        return succeeded(folder.run("import a.glb -o scene.toml")).err;
+    };
+    const char* const left_out =
+        "the normal map of a clear coat is left out, which has its surface's normals";
+    const char* const smooth = "a clear coat that is smooth in the file has its surface's normal map";
+    CHECK(holds(said(false, true, 1), left_out));
+    CHECK(holds(said(true, true, 0.5), left_out));
+    CHECK(holds(said(true, false, 1), smooth));
+    CHECK_FALSE(holds(said(true, true, 1), "coat"));
+    CHECK_FALSE(holds(said(false, false, 1), "coat"));
+    CHECK_FALSE(holds(said(false, true, 1, 0), "coat"));
+}
+
 TEST_CASE("maps of KHR_materials_specular and clearcoat are read from their channels") {
     const Picture picture;
     GltfSquare file;

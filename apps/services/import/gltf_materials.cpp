@@ -40,6 +40,18 @@ double dielectric_of(const Json& extensions) {
            std::clamp(std::pow((ior - 1) / (ior + 1), 2) * tint, 0.0, 1.0);
 }
 
+/// Whether two normal maps, or null, are the same on a surface.
+bool tilts_alike(const Json* a, const Json* b) {
+    if (a == nullptr || b == nullptr) return a == b;
+    const auto transform = [](const Json* map) -> const Json& {
+        return object_of(object_of(*map, "extensions"), "KHR_texture_transform");
+    };
+    return index_of(*a, "index") == index_of(*b, "index") &&
+           number(*a, "scale", 1) == number(*b, "scale", 1) &&
+           index_of(*a, "texCoord").value_or(0) == index_of(*b, "texCoord").value_or(0) &&
+           transform(a) == transform(b);
+}
+
 }  // namespace
 
 Materials::Materials(Container& container, candela::Registry& registry, Model& model)
@@ -255,7 +267,22 @@ double Materials::direction_in(const Textures::Placed& map) {
     return std::atan2(across, along);
 }
 
+void Materials::note_coat_normals(const Json& from) {
+    const Json& coat = object_of(object_of(from, "extensions"), "KHR_materials_clearcoat");
+    const Json* const of_coat = find(coat, "clearcoatNormalTexture");
+    const Json* const of_surface = find(from, "normalTexture");
+    if (number(coat, "clearcoatFactor", 0) <= 0 || tilts_alike(of_coat, of_surface)) return;
+    if (of_coat != nullptr)
+        model_.count("coats' normals",
+                     "the normal map of a clear coat is left out, which has its surface's normals",
+                     "the normal maps of {} clear coats are left out, which have their surfaces' normals");
+    else
+        model_.count("smooth coats", "a clear coat that is smooth in the file has its surface's normal map",
+                     "{} clear coats that are smooth in the file have their surfaces' normal maps");
+}
+
 void Materials::note_losses(const Json& from) {
+    note_coat_normals(from);
     const Json& extensions = object_of(from, "extensions");
     for (const auto& [name, unused] : extensions.items()) {
         constexpr std::array k_read = {"KHR_materials_ior",

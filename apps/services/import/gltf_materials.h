@@ -25,6 +25,8 @@ class Materials {
     Material unlit(const Json& from, const std::string& name);
     Material metallic_roughness(const Json& from, const std::string& name);
     Material specular_glossiness(const Json& from, const Json& extension, const std::string& name);
+    /// The model has one normal for all of its layers.
+    void note_coat_normals(const Json& from);
     void note_losses(const Json& from);
     /// A parameter: offset + scale times a channel of a texture, or times 1 without one.
     void add(const std::optional<Textures::Placed>& map, Channel channel, const char* parameter,
