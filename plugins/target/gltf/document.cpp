@@ -68,7 +68,7 @@ std::size_t Document::add_floats(std::span<const float> numbers, std::size_t per
     return add("accessors", {{"bufferView", view},
                              {"componentType", k_float},
                              {"count", numbers.size() / per_element},
-                             {"type", fmt::format("VEC{}", per_element)}});
+                             {"type", per_element == 1 ? "SCALAR" : fmt::format("VEC{}", per_element)}});
 }
 
 std::size_t Document::add_positions(ConstVec3Span positions, std::size_t count) {

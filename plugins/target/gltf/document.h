@@ -38,6 +38,7 @@ class Document {
     std::size_t add_tangents(ConstVec3Span dpdu, ConstVec3Span dpdv, ConstVec3Span normals,
                              std::size_t count);
     std::size_t add_texture_coordinates(ConstVec2Span coordinates, std::size_t count);  // v from the bottom
+    std::size_t add_floats(std::span<const float> numbers, std::size_t per_element);
     std::size_t add_indices(std::span<const std::uint32_t> indices);
 
     /// Adds bytes and returns the index of their view.
@@ -47,8 +48,6 @@ class Document {
     std::string glb() const;
 
   private:
-    std::size_t add_floats(std::span<const float> numbers, std::size_t per_element);
-
     std::string buffer_;
 };
 

@@ -15,6 +15,7 @@
 #include "materials.h"
 #include "metallic_roughness.h"
 #include "placement.h"
+#include "vertex_numbers.h"
 
 namespace candela::gltf_target {
 
@@ -67,13 +68,15 @@ class Writer {
 
   private:
     void add_object(std::size_t index, Json& nodes) {
-        const ExportedObject& object = scene_.objects[index];
-        const ExportedShading& shading = scene_.shadings[object.shading];
+        const ExportedObject& whole = scene_.objects[index];
+        const ExportedShading& shading = scene_.shadings[whole.shading];
         target::approximate_shading(shading, files_);
-        if (scene_.has_shadows && !(object.casts_shadows && object.receives_shadows))
+        if (scene_.has_shadows && !(whole.casts_shadows && whole.receives_shadows))
             files_.approximate("every object casts and receives shadows, or none does");
         const ExportedMesh mesh = scene_.geometry->in_world_space(index);
         if (mesh.indices.empty()) return;
+        const VertexNumbers of_vertices(scene_, whole, mesh, files_);
+        const ExportedObject& object = of_vertices.rest();
         const std::size_t count = mesh.vertex_count;
         Json attributes = {{"POSITION", document_.add_positions(mesh.position, count)}};
         const ConstVec3Span normals = mesh.normals[mesh.normals_of[object.shading]];
@@ -94,9 +97,9 @@ class Writer {
             // The sets of a primitive are numbered from 0.
             if (!attributes.contains("TEXCOORD_0")) attributes["TEXCOORD_0"] = attributes["TEXCOORD_1"];
         }
-        if (mesh.color) attributes["COLOR_0"] = document_.add_vectors(mesh.color, count);
+        of_vertices.add_to(attributes, document_);
         const std::size_t indices = document_.add_indices(mesh.indices);
-        const std::size_t material = materials_.add(object, mesh.closed);
+        const std::size_t material = materials_.add(object, of_vertices.alpha(), mesh.closed);
         const std::size_t added =
             document_.add("meshes", {{"name", object.label},
                                      {"primitives", Json::array({{{"attributes", std::move(attributes)},
@@ -122,6 +125,7 @@ class GltfTarget final : public Target {
                 .textures = true,
                 .textured_numbers = true,
                 .second_uv = true,
+                .vertex_channels = true,
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,

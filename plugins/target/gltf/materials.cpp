@@ -119,7 +119,8 @@ Json Materials::approximate(const ExportedReflection& model, const ExportedValue
     return material;
 }
 
-std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
+std::size_t Materials::add(const ExportedObject& object, const std::optional<float>& vertex_alpha,
+                           bool is_closed) {
     const ExportedReflection& model = scene_.reflections[object.reflection];
     const std::vector<ParamValue> means = target::mean_values(scene_, object);
     ExportedValues values = object.materials[object.reflection];
@@ -141,7 +142,7 @@ std::size_t Materials::add(const ExportedObject& object, bool is_closed) {
         material["extensions"]["KHR_materials_unlit"] = Json::object();
         document_.use_extension("KHR_materials_unlit");
     }
-    maps_.add_color(object, material);
+    maps_.add_color(object, vertex_alpha, material);
     maps_.add_normals(object, material);
     if (is_unlit && target::emission_of(object, scene_.image.color_management) != Rgb{})
         files_.approximate("what an unlit material emits is left out by programs that show the file");

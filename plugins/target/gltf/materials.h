@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "candela/math.h"
 #include "candela/target.h"
@@ -17,9 +18,9 @@ class Materials {
     Materials(const ExportedScene& scene, Document& document, FileSink& files)
         : scene_(scene), document_(document), files_(files) {}
 
-    /// The index of an object's material. Throws std::runtime_error if its texture is neither a PNG nor a
-    /// JPEG file.
-    std::size_t add(const ExportedObject& object, bool is_closed);
+    /// The index of an object's material; `vertex_alpha`: the factor of its alpha, if its vertices have one.
+    /// Throws std::runtime_error if its texture is neither a PNG nor a JPEG file.
+    std::size_t add(const ExportedObject& object, const std::optional<float>& vertex_alpha, bool is_closed);
 
   private:
     /// The nearest to a model that glTF does not have.

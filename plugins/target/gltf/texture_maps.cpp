@@ -228,14 +228,16 @@ Json TextureMaps::info_of(std::size_t image, const Reader& reader) {
     return info;
 }
 
-void TextureMaps::add_color(const ExportedObject& object, Json& material) {
-    const bool is_see_through = object.is_see_through();
+void TextureMaps::add_color(const ExportedObject& object, const std::optional<float>& vertex_alpha,
+                            Json& material) {
+    const bool is_see_through = object.is_see_through() || vertex_alpha;
     if (is_see_through) {
         material["alphaMode"] = object.opacity_cutoff > 0 ? "MASK" : "BLEND";
         if (object.opacity_cutoff > 0) material["alphaCutoff"] = object.opacity_cutoff;
     }
     Json& pbr = material["pbrMetallicRoughness"];
-    if (is_see_through) pbr["baseColorFactor"][3] = object.opacity;
+    const float of_vertices = vertex_alpha.value_or(1);
+    if (is_see_through) pbr["baseColorFactor"][3] = of_vertices * object.opacity;
     const auto opacity = is_see_through ? object.opacity_numbers : std::span<const ExportedTexturedNumber>();
     const std::span<const ExportedTexturedNumber> color = object.color_numbers;
     if (color.empty() && opacity.empty()) return;
@@ -258,7 +260,7 @@ void TextureMaps::add_color(const ExportedObject& object, Json& material) {
     const Picture picture = file ? *file : baked(k_color_map, sources);
     for (std::size_t c = 0; c < 3 && !color.empty(); ++c)
         pbr["baseColorFactor"][c] = picture.highest[c] * pbr["baseColorFactor"][c].get<float>();
-    if (!opacity.empty()) pbr["baseColorFactor"][3] = picture.highest[3];
+    if (!opacity.empty()) pbr["baseColorFactor"][3] = of_vertices * picture.highest[3];
     pbr["baseColorTexture"] = info_of(picture.image, placed);
 }
 

@@ -23,8 +23,8 @@ class TextureMaps {
     /// Parameters for which glTF has no map keep their mean, which is reported.
     void add(const ExportedObject& object, std::span<const ParamValue> values, Json& material);
     /// Adds an object's opacity, and the picture of its colour and opacity, to a material of any model, whose
-    /// colour the picture multiplies.
-    void add_color(const ExportedObject& object, Json& material);
+    /// colour the picture multiplies; `vertex_alpha`: as of Materials::add().
+    void add_color(const ExportedObject& object, const std::optional<float>& vertex_alpha, Json& material);
     /// Adds what an object emits, and its occlusion, to a material of any model.
     void add_emission(const ExportedObject& object, Json& material);
     void add_occlusion(const ExportedObject& object, Json& material);
