@@ -15,6 +15,7 @@ import unittest
 
 from served import COMMAND, ENVIRONMENT, LONGEST, OWN_KERNEL, View, children_of, status_of, tcp_sockets_of
 
+CUBE = str(pathlib.Path(__file__).parents[2] / "docs/examples/cube.toml")
 JUNK = int(os.environ.get("CANDELA_TEST_REQUESTS", "2000"))
 # Sanitizers hold back freed memory, and record each thread's history.
 MAY_GROW = 4096 if os.environ.get("CANDELA_TEST_SANITIZED", "") == "" else 256 * 1024  # kB
@@ -543,7 +544,9 @@ class Ending(unittest.TestCase):
 
     def test_what_cannot_be_followed_is_refused(self):
         for arguments, words in ((["-"], "is not a file"), (["nowhere.toml"], "is not a file"), (["--port", "70000"], "--port is 70000"),
-                                 (["--target", "cpp2"], "unknown target 'cpp2'")):
+                                 (["--target", "cpp2"], "unknown target 'cpp2'"),
+                                 ([CUBE, "--plain"], "--plain applies to a model given instead of a scene"),
+                                 ([CUBE, "--shadows", "--no-shadows"], "contradict each other"), ([CUBE, "--set", "image.width"], "has no '='")):
             done = subprocess.run([COMMAND, "view", "--no-open", *arguments], env=ENVIRONMENT, capture_output=True, text=True,
                                   stdin=subprocess.DEVNULL, timeout=LONGEST)
             self.assertEqual(done.returncode, 2, done.stderr)

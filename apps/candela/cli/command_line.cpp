@@ -256,9 +256,25 @@ bool has_model(const CommandLine& line) {
     return std::ranges::any_of(line.all("scene"), importing::is_model);
 }
 
+void require_scene_options(const CommandLine& line) {
+    if (line.has("allow-outside") && !has_model(line))
+        throw Error(
+            ErrorCategory::bad_request,
+            "--allow-outside applies to a model given instead of a scene; in a scene, give the object "
+            "allow_outside = true");
+    if (line.has("plain") && !has_model(line))
+        throw Error(ErrorCategory::bad_request,
+                    "--plain applies to a model given instead of a scene; a scene has its own lights: remove "
+                    "its [[light]] of type \"studio\", or darken it with --set light.NAME.intensity=0");
+    if (line.has("shadows") && line.has("no-shadows"))
+        throw Error(ErrorCategory::bad_request, "--shadows and --no-shadows contradict each other");
+    settings_from(line, "set");
+}
+
 candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry,
                                          Models models) {
     candela::SceneRequest request;
+    require_scene_options(line);
     const std::vector<std::string> files = line.all("scene");
     for (const std::string& file : files) {
         if (file.empty()) throw Error(ErrorCategory::bad_request, "a scene's file name is empty");
@@ -282,15 +298,6 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
                                                          registry));
         }
     }
-    if (line.has("allow-outside") && !has_model(line))
-        throw Error(
-            ErrorCategory::bad_request,
-            "--allow-outside applies to a model given instead of a scene; in a scene, give the object "
-            "allow_outside = true");
-    if (line.has("plain") && !has_model(line))
-        throw Error(ErrorCategory::bad_request,
-                    "--plain applies to a model given instead of a scene; a scene has its own lights: remove "
-                    "its [[light]] of type \"studio\", or darken it with --set light.NAME.intensity=0");
     for (const char* const flag : {"width", "height", "samples"}) {
         if (!line.has(flag)) continue;
         request.settings.push_back(
@@ -299,8 +306,6 @@ candela::SceneRequest scene_request_from(const CommandLine& line, candela::Regis
     if (line.has("exposure"))
         request.settings.push_back({"--exposure", "observer.exposure", line.get<std::string>("exposure")});
     if (line.has("tone")) request.settings.push_back({"--tone", "image.tone", line.get<std::string>("tone")});
-    if (line.has("shadows") && line.has("no-shadows"))
-        throw Error(ErrorCategory::bad_request, "--shadows and --no-shadows contradict each other");
     for (const bool enabled : {true, false}) {
         const char* const flag = enabled ? "shadows" : "no-shadows";
         if (line.has(flag))

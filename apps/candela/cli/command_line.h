@@ -63,6 +63,8 @@ candela::Registry registry_from(const CommandLine& line);
 void add_scene_options(CommandLine& line);
 /// How models are shown: at rest (unless --frame selects a frame), or with their animation.
 enum class Models { at_rest, moving };
+/// Throws candela::Error if the options contradict each other or the kind of file, whatever it contains.
+void require_scene_options(const CommandLine& line);
 /// Imports a model given in place of a scene, once, and reports what is lost.
 candela::SceneRequest scene_request_from(const CommandLine& line, candela::Registry& registry,
                                          Models models = Models::at_rest);

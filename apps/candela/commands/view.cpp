@@ -71,6 +71,7 @@ int run_view(const std::vector<std::string>& arguments) {
                 fmt::format("'{}' is not a file; candela view follows files as they are saved", file));
         }
     }
+    require_scene_options(line);  // saving a file would not mend them
     candela::Registry registry = registry_from(line);
     const LoadedTarget target =
         line.has("target") ? LoadedTarget(line.get<std::string>("target"), registry) : page_target(registry);
