@@ -223,7 +223,7 @@ const GlslDepth k_reversed_depth{
         "holds with the same relative precision\n    // at all distances.\n"
         "    gl_FragDepth = is_orthographic ? 1.0 - gl_FragCoord.z : near * gl_FragCoord.w;\n"};
 
-GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
+GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth, NormalScale normal_scale) {
     require_different_names(scene);
     const bool is_textured = !scene.textures.empty();
     GlslParts parts;
@@ -283,7 +283,7 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth) {
         if (has_normal_maps(scene)) parts.texture += std::string(normal_map_kernel()) + "\n";
     }
     parts.materials = textured_materials(scene);
-    parts.normal_maps = normal_map_texts(scene);
+    parts.normal_maps = normal_map_texts(scene, normal_scale);
     parts.opacities = textured_opacities(scene);
     parts.common_materials = textured_common_materials(scene);
     parts.screen = candela_target_screen;

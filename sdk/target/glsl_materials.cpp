@@ -114,19 +114,21 @@ bool takes_opacity_from_channels(const ExportedObject& object) {
     });
 }
 
-std::string normal_text_of(const ExportedObject& object) {
+std::string normal_text_of(const ExportedObject& object, NormalScale normal_scale) {
     if (object.normal_map == nullptr) return "";
     const ExportedNormalMap& map = *object.normal_map;
+    const bool is_uniform = normal_scale == NormalScale::uniform;
+    const char* const factor = is_uniform ? "normal_scale * " : "";
     return reading_text(object) +
            fmt::format(
-               "#define NORMAL_MAPPED\n"
+               "#define NORMAL_MAPPED\n{}"
                "// {}: a picture tilts its normals.\n"
                "vec3 mapped_normal(vec3 n, ShadingPoint p) {{\n"
                "    vec3 texel = {};\n"
-               "    return {}(texel, vec2({}, {}), vec2({}, {}), n, p.dpdu, p.dpdv);\n}}\n",
-               ascii_identifier(object.label), texel_text(object, map), normal_function(map),
-               float_text(map.to_uv[0]), float_text(map.to_uv[1]), float_text(map.to_uv[2]),
-               float_text(map.to_uv[3]));
+               "    return {}(texel, {}vec2({}, {}), {}vec2({}, {}), n, p.dpdu, p.dpdv);\n}}\n",
+               is_uniform ? "uniform float normal_scale;\n" : "", ascii_identifier(object.label),
+               texel_text(object, map), normal_function(map), factor, float_text(map.to_uv[0]),
+               float_text(map.to_uv[1]), factor, float_text(map.to_uv[2]), float_text(map.to_uv[3]));
 }
 
 }  // namespace
@@ -191,9 +193,9 @@ std::vector<std::string> textured_opacities(const ExportedScene& scene) {
     return all;
 }
 
-std::vector<std::string> normal_map_texts(const ExportedScene& scene) {
+std::vector<std::string> normal_map_texts(const ExportedScene& scene, NormalScale normal_scale) {
     std::vector<std::string> all;
-    for (const ExportedObject& object : scene.objects) all.push_back(normal_text_of(object));
+    for (const ExportedObject& object : scene.objects) all.push_back(normal_text_of(object, normal_scale));
     return all;
 }
 

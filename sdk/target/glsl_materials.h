@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "candela/target.h"
+#include "candela/target/glsl.h"
 
 namespace candela::target {
 
@@ -23,7 +24,7 @@ std::string common_material(const ExportedScene& scene);
 std::vector<std::string> textured_opacities(const ExportedScene& scene);
 
 /// For each object, GlslParts::normal_maps.
-std::vector<std::string> normal_map_texts(const ExportedScene& scene);
+std::vector<std::string> normal_map_texts(const ExportedScene& scene, NormalScale normal_scale);
 
 /// The part of GlslParts::texture that reads the pictures of materials, which needs a member `unit` of
 /// ColorTexture; empty if no object has one.

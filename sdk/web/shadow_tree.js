@@ -4,7 +4,7 @@ import { opacityTexels, writeOpacity } from "./shadow_opacity.js";
 const integersOf = (name) => new Int32Array(bytesOf(name).buffer);
 
 /** The part of the light that an object without a texture of opacity blocks. */
-function blockedPart({ opacity = 1, opacity_cutoff = 0 }) {
+export function blockedPart({ opacity = 1, opacity_cutoff = 0 }) {
     if (opacity_cutoff <= 0) return opacity;
     return opacity >= opacity_cutoff ? 1 : 0;
 }
@@ -20,6 +20,7 @@ export function shadowTexels(tree, objects, textures, isSrgb) {
     const height = Math.ceil(objects.reduce((sum, object) => sum + opacityTexels(object, textures), end) / tree.width);
     const integers = new Int32Array(4 * tree.width * height), floats = new Float32Array(integers.buffer);
     let number = 0;
+    const trianglesOf = [];  // by object: the first texel of each of its triangles, or null
     objects.forEach((object, i) => {
         const { mesh, is_solid } = object, blocked = blockedPart(object);
         const positions = floatsOf(mesh.position), indices = indicesOf(mesh.indices), triangles = [];
@@ -32,6 +33,7 @@ export function shadowTexels(tree, objects, textures, isSrgb) {
             integers[at + 3] = 2 * i + (is_solid ? 1 : 0);
             floats[at + 7] = blocked;
         }
+        trianglesOf.push(triangles);
         if (!object.shadow_opacity) return;
         writeOpacity(integers, end, object, triangles, textures, isSrgb);
         end += opacityTexels(object, textures);
@@ -54,5 +56,5 @@ export function shadowTexels(tree, objects, textures, isSrgb) {
         integers[low + 3] = next;
         integers[high + 3] = leaf;
     }
-    return { height, texels: integers };
+    return { height, texels: integers, trianglesOf };
 }

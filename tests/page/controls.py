@@ -1,6 +1,6 @@
 """Checks that controls do what options of the command line do."""
 import scenes
-from generated import SMALL_WINDOW, Generated, PageTest, options_for
+from generated import SCRATCH, SMALL_WINDOW, Generated, PageTest, options_for
 
 # Some parameters of reflection models have no visible effect at the defaults of the others: they are tried with these values.
 NEEDS = {
@@ -203,6 +203,40 @@ class Controls(PageTest):
         copper = ("--reflection", "ggx", "--set", "object.1.color=[250,209,194]", "--set", "object.1.material.kd=0",
                   "--set", "object.1.material.ks=[0.955,0.638,0.538]", "--set", "object.1.material.ior=100")
         self.assert_alike(self.picture(generated), generated.render(*copper), "copper", before=ggx)
+
+    def test_values_of_every_material_and_of_normal_maps(self):
+        folder = SCRATCH / "textured"
+        folder.mkdir(parents=True, exist_ok=True)
+        (folder / "waves.ppm").write_bytes(scenes.WAVES)
+        (folder / "tilts.ppm").write_bytes(scenes.TILTS)
+        generated = Generated("textured", scenes.TEXTURED)
+        self.browser.open(generated.address)
+        self.browser.unfold_all()
+        own = self.picture(generated)
+        self.assert_alike(own, generated.render(), "as it is")
+        expected = {"object.0.bump_map.height", "object.1.common.opacity", "object.2.common.emission_strength", "object.2.normal_map.scale",
+                    "object.3.common.emission_strength"}
+        # Those that pictures give have none: --set would put a number in the place of the picture.
+        given = {"object.0.color", "object.2.material.phong.kd"}
+        paths = set(self.settings())
+        self.assertEqual({path for path in paths if path.split(".")[2:3] and path.split(".")[2] in ("common", "normal_map", "bump_map")}, expected)
+        self.assertEqual(paths & given, set())
+        self.assertIn("object.2.material.phong.ks", paths)
+        self.own_model = {}
+        for path in sorted(expected):
+            with self.subTest(path):
+                self.try_setting(generated, own, path, self.reset)
+            self.reset()
+            self.assertEqual(self.picture(generated).pixels, own.pixels, f"{path}: reset")
+        # A normal map shows where light is evaluated at pixels; another model has all of its own numbers.
+        self.browser.enter("[data-path=shading] select", "gouraud")
+        self.browser.unfold_all()
+        self.assertNotIn("object.2.normal_map.scale", self.settings())
+        self.reset()
+        self.browser.enter("[data-path=reflection] select", "blinn-phong")
+        self.browser.unfold_all()
+        self.assertIn("object.2.material.blinn-phong.kd", self.settings())
+        self.assertEqual(self.browser.errors(), [])
 
     def test_wrong_input(self):
         generated = Generated("wrong", scenes.PERSPECTIVE)

@@ -64,6 +64,8 @@ def options_for(path, value):
         return ["--set", f"light.{rest[0]}.{rest[2]}={toml(value)}"]
     if path == "image.exposure":
         return ["--set", f"observer.exposure={toml(value)}"]
+    if kind == "object" and rest[1] == "common":
+        return ["--set", f"object.{rest[0]}.material.{rest[2]}={toml(value)}"]
     if kind == "object" and rest[1] in ("material", "shading"):
         return ["--set", f"object.{rest[0]}.{rest[1]}.{rest[3]}={toml(value)}"]
     return ["--set", f"{path}={toml(value)}"]

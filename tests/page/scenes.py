@@ -120,6 +120,78 @@ kd = 0.6
 ks = 0.25
 """
 
+# What pictures give, next to the numbers that objects have whatever their reflection model. The ball hides the slab's far half.
+TEXTURED = """
+version = 1
+[observer]
+position = [0.0, 1.4, 4.0]
+look_at = [0.0, -0.1, 0.0]
+fov = 40.0
+[image]
+width = 160
+height = 100
+samples = 4
+background = [40, 50, 70]
+[constraints]
+overlap = "allow"
+[shadows]
+enabled = true
+[shading]
+model = "phong"
+[reflection]
+model = "phong"
+[[light]]
+type = "point"
+position = [-1.5, 3.0, 3.0]
+intensity = 12.0
+[[light]]
+type = "ambient"
+intensity = 0.4
+[[object]]
+name = "slab"
+type = "cube"
+scale = [4.0, 0.2, 3.0]
+position = [0.0, -0.8, 0.0]
+color = { texture = "waves.ppm" }
+bump_map = { texture = "waves.ppm", height = 0.1 }
+[[object]]
+name = "pane"
+type = "cube"
+scale = [0.7, 1.0, 0.1]
+position = [-1.0, 0.0, 0.3]
+color = [250, 60, 40]
+[object.material]
+opacity = 0.4
+[[object]]
+name = "ball"
+type = "sphere"
+radius = 0.5
+position = [0.1, 0.0, 0.2]
+color = [200, 200, 180]
+normal_map = { texture = "tilts.ppm", scale = 0.6 }
+[object.material]
+kd = { texture = "waves.ppm", channel = "g", scale = 0.8 }
+emission = [40, 90, 30]
+emission_strength = 0.8
+[[object]]
+name = "glowing"
+type = "sphere"
+radius = 0.4
+position = [1.2, 0.0, 0.0]
+[object.material]
+emission = { texture = "waves.ppm" }
+emission_strength = 0.5
+"""
+
+
+def picture(texel):
+    """Sixteen by sixteen texels."""
+    return b"P6\n16 16\n255\n" + b"".join(bytes(texel(x, y)) for y in range(16) for x in range(16))
+
+
+WAVES = picture(lambda x, y: (128 + 14 * abs(x - 8), 200 - 12 * abs(y - 8), 60 + 8 * abs(x - y)))
+TILTS = picture(lambda x, y: (128 + 6 * (abs(x - 8) - 4), 128 + 6 * (abs(y - 8) - 4), 250))
+
 HOSTILE_NAMES = [
     "<img src=x onerror='window.hacked=1'>",
     "</script><script>window.hacked=2</script>",

@@ -117,7 +117,7 @@ struct ExportedNormalMap {
     /// The first two numbers of a normal (2 * texel - 1), or a slope's, along growing u and v: (m[0] x + m[1]
     /// y, m[2] x + m[3] y). Of slopes, in metres per unit of u and v.
     float to_uv[4] = {1, 0, 0, 1};
-    /// Of normals: how much of to_uv is the author's scale of their first two numbers.
+    /// How much of to_uv is the author's scale of normals, or height in metres.
     float scale = 1;
 };
 

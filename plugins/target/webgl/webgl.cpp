@@ -1,6 +1,7 @@
 // The page: a template, the scene as JSON, and the scripts that read it.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -201,6 +202,17 @@ Json pictures_json(const ExportedObject& object) {
     return pictures;
 }
 
+/// The names of the parameters of its own reflection model that pictures or vertices give.
+Json textured_json(const ExportedScene& scene, const ExportedObject& object) {
+    Json names = Json::array();
+    for (const ExportedTexturedNumber& number : object.textured_numbers) {
+        const char* const name =
+            scene.reflections[object.reflection].plugin->parameters[number.parameter].name;
+        if (std::ranges::find(names, Json(name)) == names.end()) names.push_back(name);
+    }
+    return names;
+}
+
 Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arrays) {
     const ExportedObject& object = scene.objects[index];
     Json materials = Json::object(), shadings = Json::object();
@@ -225,7 +237,8 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         {"shadings", std::move(shadings)},
         {"fixed", {{"material", std::move(fixed_materials)}, {"shading", std::move(fixed_shadings)}}},
         {"closed", mesh.closed},
-        {"color_texture", object.color_numbers.empty() ? Json() : Json(object.color_numbers.front().texture)},
+        {"is_color_textured", !object.color_numbers.empty()},
+        {"textured", textured_json(scene, object)},
         {"material", all_textured_numbers(object).empty() ? Json() : Json(index)},
         {"common_material", has_common_textures(object) ? Json(scene.objects.size() + index) : Json()},
         {"normal_map", object.normal_map == nullptr ? Json() : Json(index)},
@@ -234,6 +247,11 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         {"mesh", mesh_json(scene, mesh, arrays)}};
     const Rgb emission = emission_of(object, scene.image.color_management);
     if (has_emission(scene)) json["emission"] = {emission.r, emission.g, emission.b};
+    if (emission != Rgb{}) json["emission_strength"] = shortest(object.emission_strength);
+    if (object.normal_map != nullptr)
+        json["normal_scale"] = {
+            {"path", object.normal_map->has_slopes ? "bump_map.height" : "normal_map.scale"},
+            {"value", shortest(object.normal_map->scale)}};
     if (has_occlusion(scene)) json["occlusion"] = object.occlusion;
     if (has_opacity(scene)) {
         json["opacity"] = object.opacity;
@@ -326,7 +344,7 @@ Json observer_json(const ExportedObserver& observer) {
 
 /// Adds the arrays that it names to the page.
 Json scene_json(const ExportedScene& scene, PageArrays& arrays) {
-    const GlslParts glsl = glsl_of(scene);
+    const GlslParts glsl = glsl_of(scene, k_reversed_depth, NormalScale::uniform);
     std::vector<std::string> materials = glsl.materials;
     materials.insert(materials.end(), glsl.common_materials.begin(), glsl.common_materials.end());
     Json lights = Json::array(), objects = Json::array();

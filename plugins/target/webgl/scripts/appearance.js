@@ -1,5 +1,6 @@
 import { decodeColor } from "../../../../sdk/web/colors.js";
 import { COLOR, EXPOSURE_PATH, SHADOWS_PATH, TONE, TONE_PATH } from "./parameters.js";
+import { canonicalValue } from "../../../../sdk/web/values.js";
 import { normalize, scale } from "../../../../sdk/web/vectors.js";
 
 /** A parameter's value for a shader: { kind: "int" | "float" | "vec3", value }, angles in radians. */
@@ -30,12 +31,19 @@ function fixedUniforms(name, { kind, value }) {
 
 /**
  * Pairs of a uniform's name and value: the setting `${prefix}${name}` becomes the member `${struct}.${name}`, as do the `fixed`
- * members.
+ * members. `values`: the scene's own.
  */
-function modelUniforms(settings, model, prefix, fixed, struct, isSrgb) {
+function modelUniforms(settings, model, prefix, { fixed, values }, struct, isSrgb) {
+    // A parameter that pictures give has the value without them.
+    const valueOf = (parameter) => {
+        const own = values?.[parameter.name] ?? null;
+        if (settings.find(prefix + parameter.name) !== null) return settings.get(prefix + parameter.name);
+        return own === null ? null : canonicalValue(parameter, own);
+    };
     const adjustable = model.parameters
-        .filter(({ name }) => settings.find(prefix + name) !== null)
-        .map((parameter) => [`${struct}.${parameter.name}`, toUniform(parameter, settings.get(prefix + parameter.name), isSrgb)]);
+        .map((parameter) => [parameter, valueOf(parameter)])
+        .filter(([, value]) => value !== null)
+        .map(([parameter, value]) => [`${struct}.${parameter.name}`, toUniform(parameter, value, isSrgb)]);
     return [...adjustable, ...Object.entries(fixed).flatMap(([name, value]) => fixedUniforms(`${struct}.${name}`, value))];
 }
 
@@ -54,15 +62,27 @@ function structMembers(settings, model, prefix, { fixed, radiance, shadows }, is
 export function materialUniforms(settings, index, reflection) {
     const { scene } = settings, isSrgb = scene.image.color_management === "srgb";
     return modelUniforms(settings, scene.reflection_models[reflection], `object.${index}.material.${reflection}.`,
-        scene.objects[index].fixed.material[reflection], "material", isSrgb);
+        { fixed: scene.objects[index].fixed.material[reflection], values: scene.objects[index].materials[reflection] }, "material", isSrgb);
 }
 
-/** The uniforms of emission, occlusion and opacity, in a scene where objects have it. */
-function commonUniforms({ emission, occlusion, opacity, opacity_cutoff }) {
+/** A setting's value as a factor of the scene's own; 1 if there is none. */
+function factorOf(settings, path) {
+    const found = settings.find(path);
+    return found === null ? 1 : settings.get(path) / found.initial;
+}
+
+/** The opacity of an object that no picture gives. */
+const opacityOf = (settings, i, { opacity }) => (settings.find(`object.${i}.common.opacity`) === null ? opacity : settings.get(`object.${i}.common.opacity`));
+
+/** The uniforms of emission, occlusion, opacity and tilted normals, in a scene where objects have it. */
+function commonUniforms(settings, i, object) {
+    const { emission, occlusion, opacity_cutoff, normal_scale } = object, opacity = opacityOf(settings, i, object);
+    const strength = factorOf(settings, `object.${i}.common.emission_strength`);
     return [
-        ...(emission ? [["object_emission", { kind: "vec3", value: emission }]] : []),
+        ...(emission ? [["object_emission", { kind: "vec3", value: scale(emission, strength) }]] : []),
         ...(occlusion !== undefined ? [["object_occlusion", { kind: "float", value: occlusion }]] : []),
         ...(opacity !== undefined ? [["object_opacity", { kind: "float", value: opacity }], ["object_opacity_cutoff", { kind: "float", value: opacity_cutoff }]] : []),
+        ...(normal_scale ? [["normal_scale", { kind: "float", value: factorOf(settings, `object.${i}.${normal_scale.path}`) }]] : []),
     ];
 }
 
@@ -89,16 +109,17 @@ export function appearanceOf(settings) {
         return {
             shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
             material, normalMap: object.normal_map, opacityMap: object.opacity_map,
+            opacity: opacityOf(settings, i, object),
             isTextured: [material, object.normal_map, object.opacity_map].some((text) => text !== null),
             uniforms: [
                 ["object_index", { kind: "int", value: i }],
                 ["is_shadowed", { kind: "int", value: hasShadows && object.receives_shadows ? 1 : 0 }],
                 ["blocks_both_sides", { kind: "int", value: object.is_solid ? 0 : 1 }],
-                ["object_color", toUniform(COLOR, settings.get(`object.${i}.color`), isSrgb)],
-                ...commonUniforms(object),
+                ["object_color", toUniform(COLOR, object.is_color_textured ? object.color : settings.get(`object.${i}.color`), isSrgb)],
+                ...commonUniforms(settings, i, object),
                 ...materialUniforms(settings, i, reflection),
                 ...modelUniforms(
-                    settings, shadingModel, `object.${i}.shading.${shading}.`, object.fixed.shading[shading], "shading", isSrgb),
+                    settings, shadingModel, `object.${i}.shading.${shading}.`, { fixed: object.fixed.shading[shading] }, "shading", isSrgb),
             ],
         };
     });

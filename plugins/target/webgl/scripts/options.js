@@ -34,7 +34,9 @@ export function optionsOf(allSettings, pane = 0) {
             if (!value) options.push(["set", `light.${index}.intensity=0`]);
         } else if (kind === "light") {
             options.push(["set", `light.${index}.${rest[0]}=${tomlOf(value)}`]);
-        } else if (kind === "object" && group !== "color") {
+        } else if (kind === "object" && group === "common") {
+            options.push(["set", `object.${index}.material.${rest[0]}=${tomlOf(value)}`]);
+        } else if (kind === "object" && ["material", "shading"].includes(group)) {
             const model = group === "material" ? "reflection" : "shading";
             if (settings.modelOf(scene.objects[index], model) === rest[0]) options.push(["set", `object.${index}.${group}.${rest[1]}=${tomlOf(value)}`]);
         } else {

@@ -1,3 +1,4 @@
+import { commonControls, givenByPictures } from "./common_controls.js";
 import { toHex } from "../../../../sdk/web/colors.js";
 import { element, isolated } from "../../../../sdk/web/elements.js";
 import { EXPOSURE_PATH, TONE_PATH } from "./parameters.js";
@@ -152,28 +153,27 @@ export class Panels {
             [swatch, element("span", { class: "title" }, isolated(displayName(object.label, "object", i))), models],
             i < INITIALLY_OPEN && this.scene.objects.length <= 3 * INITIALLY_OPEN,
             () => {
-                const texture = this.scene.objects[i].color_texture;
                 const shading = settings.modelOf(object, "shading"), reflection = settings.modelOf(object, "reflection");
                 const of = (kind, model, values) => this.scene[`${kind}_models`][model].parameters.map(({ name }) =>
                     controls.of(`object.${i}.${values}.${model}.${name}`, name));
                 return [
                     presetChoice(settings, `object.${i}.`, reflection),
                     controls.of(`object.${i}.color`, "color"),
-                    texture === null ? null
-                        : element("p", { class: "about" }, `The colour is multiplied by the picture ${this.scene.textures[texture].title}.`),
+                    givenByPictures(this.scene.objects[i], reflection),
                     ...of("reflection", reflection, "material"),
+                    ...commonControls(settings, controls, "", i, shading),
                     ...of("shading", shading, "shading"),
                 ].filter((control) => control !== null);
             },
         );
         section.show = () => {
-            swatch.style.backgroundColor = toHex(settings.get(`object.${i}.color`));
+            swatch.style.backgroundColor = toHex(this.scene.objects[i].is_color_textured ? this.scene.objects[i].color : settings.get(`object.${i}.color`));
             models.textContent = ["reflection", "shading"]
                 .map((kind) => this.scene[`${kind}_models`][settings.modelOf(object, kind)].title).join(" · ");
         };
         const contentOf = () => {
-            const { color, materials, shadings, color_texture: texture } = this.scene.objects[i];
-            return [color, materials, shadings, texture === null ? null : this.scene.textures[texture].title];
+            const { color, materials, shadings, is_color_textured, textured, emission_strength, opacity, opacity_cutoff, opacity_map, normal_scale } = this.scene.objects[i];
+            return [color, materials, shadings, is_color_textured, textured, emission_strength, opacity, opacity_cutoff, opacity_map, normal_scale];
         };
         return this.register(section, displayName(object.label, "object", i), `object.${i}.`, contentOf);
     }

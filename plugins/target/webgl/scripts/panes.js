@@ -1,3 +1,4 @@
+import { commonControls } from "./common_controls.js";
 import { element, isolated, newId } from "../../../../sdk/web/elements.js";
 import { Gestures } from "../../../../sdk/web/gestures.js";
 import { layOver, onMoved } from "./overlay.js";
@@ -67,7 +68,7 @@ export class Panes {
         const own = [...settings.changes.keys()].filter((path) => path.startsWith(prefix) && !MODELS.includes(path.slice(prefix.length)));
         const values = own.filter((path) => {
             const [, , kind, object, group, model] = path.split(".");
-            const isInForce = kind !== "object" || group === "color" || this.modelsIn(index, group === "material" ? "reflection" : "shading").includes(model);
+            const isInForce = kind !== "object" || !["material", "shading"].includes(group) || this.modelsIn(index, group === "material" ? "reflection" : "shading").includes(model);
             return isInForce && !areEqual(settings.get(path), settings.get(path.slice(prefix.length))) && object !== undefined;
         });
         const told = values.slice(0, 3).map((path) => `${path.split(".").at(-1)} ${[settings.get(path)].flat().filter((x, i, all) => i === 0 || x !== all[0]).join(", ")}`);
@@ -165,7 +166,9 @@ export class Panes {
                 return scene[`${kind}_models`][model].parameters.map(({ name }) => controls.of(`${prefix}object.${i}.${group}.${model}.${name}`, name));
             };
             const chosen = presetChoice(settings, `${prefix}object.${i}.`, own.modelOf(object, "reflection"));
-            return [chosen, controls.of(`${prefix}object.${i}.color`, "color"), ...of("reflection", "material"), ...of("shading", "shading")].filter((control) => control !== null);
+            const common = commonControls(settings, controls, prefix, i, own.modelOf(object, "shading"));
+            return [chosen, controls.of(`${prefix}object.${i}.color`, "color"), ...of("reflection", "material"), ...common, ...of("shading", "shading")]
+                .filter((control) => control !== null);
         })));
         return element("div", { class: "pane-controls", role: "group", "aria-label": `Pane ${PANE_NAMES[index]}` }, ...models, ...objects);
     }

@@ -15,6 +15,16 @@ export const OBSERVER_PARAMETERS = [
 ];
 
 export const COLOR = makeParameter("color", "color", { meaning: "the object's own colour" });
+/** Keys of every material, by their names; a model may have parameters of the same names. */
+export const COMMON = [
+    makeParameter("emission_strength", "real", { meaning: "multiplies the light that the surface emits", default: 1, minimum: 0 }),
+    makeParameter("opacity", "real", { meaning: "the fraction of what is behind that the surface covers", default: 1, minimum: 0, maximum: 1 }),
+];
+/** How steep a picture makes the surface, by paths within the object. */
+export const NORMAL_SCALES = new Map([
+    ["normal_map.scale", makeParameter("scale", "real", { meaning: "multiplies the normals' parts along u and v", default: 1 })],
+    ["bump_map.height", makeParameter("height", "real", { unit: "m", meaning: "of white above black" })],
+]);
 /** The display over the picture, and the layout of pictures: not part of the scene. */
 export const SHOWN = ["lights", "room", "axes", "observer"].map((name) => makeParameter(name, "boolean"));
 export const LAYOUT = makeParameter("panes", "choice", { choices: ["one", "two", "three", "four", "wipe"] });

@@ -13,7 +13,7 @@ export function presetChoice(settings, prefix, reflection) {
         ...Object.entries(values).map(([name, value]) =>
             [`${prefix}material.${reflection}.${name}`, canonicalValue(parameters.find((p) => p.name === name), value)]),
         ...(color === null ? [] : [[`${prefix}color`, color]]),
-    ];
+    ].filter(([path]) => settings.find(path) !== null);  // pictures give the others
     const isInForce = (preset) => settingsOf(preset).every(([path, value]) => areEqual(settings.get(path), value));
     const id = newId("preset"), source = element("p", { class: "meaning", id: newId("meaning") });
     const select = element("select", { id, "aria-describedby": source.id }, element("option", { value: "" }, "custom"),

@@ -126,6 +126,7 @@ export class Renderer {
      */
     drawSample(film, appearance, position, rows = [0, film.height]) {
         const { gl } = this, { observer } = appearance;
+        this.shadows?.setOpacities(appearance.objects);
         const offset = [0.5 - position[0], 0.5 - position[1]];
         const axes = viewAxes(observer), pixel = pixelSize(observer, film.height);
         const { near } = clippingPlanes(observer, axes.forward, this.bounds);

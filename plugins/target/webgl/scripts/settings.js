@@ -1,6 +1,6 @@
 import { validateObserver } from "../../../../sdk/web/camera.js";
 import { areLightsShown } from "./light_places.js";
-import { COLOR, EXPOSURE, EXPOSURE_PATH, LAYOUT, OBSERVER_PARAMETERS, SHADOWS, SHADOWS_PATH, SHOWN, SWITCH, TONE, TONE_PATH, makeParameter } from "./parameters.js";
+import { COLOR, COMMON, EXPOSURE, EXPOSURE_PATH, LAYOUT, NORMAL_SCALES, OBSERVER_PARAMETERS, SHADOWS, SHADOWS_PATH, SHOWN, SWITCH, TONE, TONE_PATH, makeParameter } from "./parameters.js";
 import { validateValue } from "./validation.js";
 import { areEqual, canonicalValue } from "../../../../sdk/web/values.js";
 
@@ -10,6 +10,9 @@ const PANE = /^pane\.[123]\.((?:shading|reflection)$|(?:object|light)\..*$)/;
 /** Pairs of a path and a value, those of panes last: whether a pane's value is its own depends on the first pane's. */
 export const panesLast = (changes) => [...changes].sort(([a], [b]) => Number(PANE.test(a)) - Number(PANE.test(b)));
 const itemAt = (list, index) => (/^\d+$/.test(index) ? ownMember(list, index) : undefined);
+
+/** Whether pictures or vertices give a parameter, so that no single value does. */
+const isTextured = (object, reflection, name) => reflection === object.reflection && object.textured.includes(name);
 
 /**
  * Everything that a user can change, each under a path such as "object.0.material.phong.kd". Only differences from the scene
@@ -99,14 +102,27 @@ export class Settings {
                 found = modelSetting(scene.light_models, light.model, light.values, rest[2]);
         } else if (kind === "object") {
             const object = itemAt(scene.objects, rest[0]);
-            if (object && rest.length === 2 && rest[1] === "color") found = { parameter: COLOR, initial: object.color };
-            if (object && rest.length === 4 && rest[1] === "material")
+            if (object && rest.length === 2 && rest[1] === "color" && !object.is_color_textured) found = { parameter: COLOR, initial: object.color };
+            if (object && rest.length === 3 && rest[1] === "common") found = this.commonSetting(object, rest[2]);
+            if (object?.normal_scale?.path === rest.slice(1).join(".") && object.normal_scale.value !== 0)
+                found = { parameter: NORMAL_SCALES.get(object.normal_scale.path), initial: object.normal_scale.value };
+            if (object && rest.length === 4 && rest[1] === "material" && !isTextured(object, rest[2], rest[3]))
                 found = modelSetting(scene.reflection_models, rest[2], ownMember(object.materials, rest[2]), rest[3]);
             if (object && rest.length === 4 && rest[1] === "shading")
                 found = modelSetting(scene.shading_models, rest[2], ownMember(object.shadings, rest[2]), rest[3]);
         }
         if (!found || found.initial === null || found.initial === undefined) return null;
         return { parameter: found.parameter, initial: canonicalValue(found.parameter, found.initial) };
+    }
+
+    /** A key of every material, where it is a number that shows and no model has a parameter of its name. */
+    commonSetting(object, name) {
+        const parameter = COMMON.find((p) => p.name === name);
+        const isOfModel = Object.values(this.scene.reflection_models).some(({ parameters }) => parameters.some((p) => p.name === name));
+        if (!parameter || isOfModel) return undefined;
+        // Opaque objects are drawn from one side.
+        const isShown = name !== "opacity" || (object.opacity < 1 && object.opacity_cutoff <= 0 && object.opacity_map === null);
+        return isShown && { parameter, initial: object[name] };
     }
 
     get(path) {

@@ -48,8 +48,12 @@ struct GlslDepth {
 /// float buffer holds with the same relative precision at all distances.
 extern const GlslDepth k_reversed_depth;
 
+/// How steep normal maps are: as the scene says, or that times the uniform `normal_scale`.
+enum class NormalScale : int { fixed, uniform };
+
 /// Throws std::runtime_error if the kernels cannot be combined in one program.
-GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth = k_reversed_depth);
+GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth = k_reversed_depth,
+                  NormalScale normal_scale = NormalScale::fixed);
 
 /// GlslParts::prelude with everything that any kernel may use, whether or not one of the scene does: for
 /// kernels that are not yet known.
