@@ -1,8 +1,9 @@
 // candela-color-view CONFIG DISPLAY VIEW: applies a view of an OpenColorIO configuration. Run by
-// `candela render --view`. Empty words stand for $OCIO and the configuration's defaults. It answers each line
-// with a line of fields that tabs separate. The first line asks whether the view exists, every other names a
-// file of floats, red, green and blue of each pixel, which it replaces: WIDTH, HEIGHT, FILE. Answers are
-// "ok", "error" and a message, or "display" or "view", if that is unknown, and the known ones.
+// `candela render --view` and other verbs. Empty words stand for $OCIO and the configuration's defaults. It
+// answers each line with a line of fields that tabs separate. The first line asks whether the view exists,
+// every other names a file of floats, red, green and blue of each pixel, which it replaces: WIDTH, HEIGHT,
+// FILE. Answers are "ok", "error" and a message, or "display" or "view", if that is unknown, and the known
+// ones.
 #include <OpenImageIO/color.h>
 #include <OpenImageIO/imagebuf.h>
 #include <OpenImageIO/imagebufalgo.h>

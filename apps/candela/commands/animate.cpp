@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,7 +12,9 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/outputs.h"
+#include "color_view/color_view.h"
 #include "commands/animation_output.h"
+#include "commands/view_option.h"
 #include "console/exit_code.h"
 #include "console/reporting.h"
 #include "console/stopwatch.h"
@@ -39,13 +42,16 @@ namespace {
 class FrameRenderer {
   public:
     FrameRenderer(candela::SceneFrames& frames, candela::Registry& registry,
-                  const candela::OutputFormat& format, int threads)
+                  const candela::OutputFormat& format, ColorView* view, int threads)
         : frames_(frames),
           format_(format),
+          view_(view),
           threads_(threads),
           builder_(registry),
           fingerprints_(registry, format),
-          writer_(registry, format, threads) {}
+          writer_(registry, format, threads) {
+        if (view != nullptr) fingerprints_.depend_on(view->text(), view->config());
+    }
 
     /// Renders the frame if it is missing, out of date or `is_forced`. Returns whether it did.
     bool render(int frame, const fs::path& file, bool is_forced) {
@@ -65,7 +71,11 @@ class FrameRenderer {
         candela::Film& film = film_for(*scene);
         const auto statistics = renderer_.render(*scene, film, {.threads = threads_});
         warn_if_dark(*scene, film, statistics, frame);
-        writer_.write(film, file, inputs);
+        if (view_ == nullptr)
+            writer_.write(film, file, inputs);
+        else
+            writer_.write(view_->applied(film, candela::exposure_factor(scene->observer.exposure)), file,
+                          inputs);
         return true;
     }
 
@@ -76,7 +86,8 @@ class FrameRenderer {
     candela::Film& film_for(const candela::RenderScene& scene) {
         const candela::DisplayTransform transform = candela::display_of(scene);
         if (!film_ || transform_ != transform) {
-            film_.emplace(scene.image.width, scene.image.height, format_.pixels, transform);
+            film_.emplace(scene.image.width, scene.image.height,
+                          view_ != nullptr ? candela::PixelType::real : format_.pixels, transform);
             transform_ = transform;
         }
         return *film_;
@@ -91,6 +102,7 @@ class FrameRenderer {
 
     candela::SceneFrames& frames_;
     candela::OutputFormat format_;
+    ColorView* view_;
     int threads_;
     candela::FrameBuilder builder_;
     candela::Renderer renderer_{candela::Renderer::Keep::visibility};
@@ -111,6 +123,7 @@ int animate(const CommandLine& line) {
     const int threads = threads_from(line);
     candela::Registry registry = registry_from(line);
     const candela::OutputFormat format = format_of_frames(line, outputs, registry);
+    const std::unique_ptr<ColorView> view = view_from(line, format);
 
     candela::Diagnostics diagnostics;
     auto frames =
@@ -126,6 +139,7 @@ int animate(const CommandLine& line) {
     report(diagnostics);
     if (!frames || diagnostics.has_errors()) return static_cast<int>(exit_code_of(diagnostics));
     require_no_input_among(outputs, *frames, numbers);
+    if (view) view->require();
 
     std::optional<TemporaryFolder> temporary;
     std::optional<FramePattern> pattern = outputs.frames;
@@ -139,7 +153,7 @@ int animate(const CommandLine& line) {
     std::size_t rendered = 0;
     {
         ProgressBar bar("rendering", !is_quiet());
-        FrameRenderer renderer(*frames, registry, format, threads);
+        FrameRenderer renderer(*frames, registry, format, view.get(), threads);
         for (const int number : numbers) {
             files.push_back(pattern->file_of(number));
             if (renderer.render(number, files.back(), line.has("force"))) ++rendered;
@@ -173,6 +187,7 @@ int run_animate(const std::vector<std::string>& arguments) {
         "force", "render all frames again")("threads", po::value<int>()->value_name("N"),
                                             "threads to use; default: all cores");
     add_scene_options(line);
+    add_view_options(line);
     if (!line.parse(arguments)) return 0;
     return animate(line);
 }

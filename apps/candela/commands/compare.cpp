@@ -20,8 +20,10 @@
 #include "cli/output_format.h"
 #include "cli/outputs.h"
 #include "cli/scene_compilation.h"
+#include "color_view/color_view.h"
 #include "commands/luminance_option.h"
 #include "commands/variants.h"
+#include "commands/view_option.h"
 #include "compare/contact_sheet.h"
 #include "compare/differences.h"
 #include "console/exit_code.h"
@@ -152,11 +154,12 @@ NamedTerm one_term(const std::string& word, const candela::Scene& scene) {
 class PaneRenderer {
   public:
     PaneRenderer(const CommandLine& line, const std::string& output, candela::Registry& registry,
-                 candela::PixelType pixels)
+                 candela::PixelType pixels, ColorView* view)
         : request_(scene_request_from(line, registry)),
           output_(output),
           registry_(registry),
           pixels_(pixels),
+          view_(view),
           luminance_(luminance_display_from(line)) {
         luminance_.has_legend = false;
         request_.reflection.reset();
@@ -192,12 +195,14 @@ class PaneRenderer {
                 shows_luminance_ || (is_luminance(named) && pixels_ == candela::PixelType::byte);
             return TermRenderer(*compiled, 0).image(named, pixels_, luminance_);
         }
-        candela::Film film(compiled->image.width, compiled->image.height, pixels_,
+        candela::Film film(compiled->image.width, compiled->image.height,
+                           view_ != nullptr ? candela::PixelType::real : pixels_,
                            candela::display_of(*compiled));
         const auto statistics = candela::render(*compiled, film, {});
         const std::string darkness = candela::darkness_diagnosis(*compiled, film, statistics);
         if (!darkness.empty()) warn(fmt::format("nothing in the picture '{}' is lit: {}", label, darkness));
-        return film;
+        if (view_ == nullptr) return film;
+        return view_->applied(film, candela::exposure_factor(compiled->observer.exposure));
     }
 
     int exit_code() const { return exit_code_; }
@@ -219,6 +224,7 @@ class PaneRenderer {
     const std::string& output_;
     candela::Registry& registry_;
     candela::PixelType pixels_;
+    ColorView* view_;
     LuminanceDisplay luminance_;
     bool shows_luminance_ = false;
     candela::ColorEncoding encoding_ = candela::ColorEncoding::none;
@@ -243,6 +249,7 @@ int run_compare(const std::vector<std::string>& arguments) {
         "columns", po::value<int>()->value_name("N"), "how many pictures to put side by side")(
         "json", "print the sheet's layout and the differences as JSON");
     add_scene_options(line);
+    add_view_options(line);
     add_format_option(line);
     add_no_clobber_option(line);
     if (!line.parse(arguments)) return 0;
@@ -272,7 +279,9 @@ int run_compare(const std::vector<std::string>& arguments) {
     candela::Registry registry = registry_from(line);
     const candela::OutputFormat format = output_format_from(line, output, registry);
 
-    PaneRenderer renderer(line, output, registry, format.pixels);
+    const std::unique_ptr<ColorView> view = view_from(line, format);
+    PaneRenderer renderer(line, output, registry, format.pixels, view.get());
+    if (view) view->require();
     std::vector<Pane> panes;
     {
         ProgressBar bar("rendering", !is_quiet());

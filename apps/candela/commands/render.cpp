@@ -15,10 +15,10 @@
 #include "cli/output_format.h"
 #include "cli/outputs.h"
 #include "cli/scene_compilation.h"
-#include "color_view/color_view.h"
 #include "commands/luminance_option.h"
 #include "commands/part_rendering.h"
 #include "commands/row_rendering.h"
+#include "commands/view_option.h"
 #include "console/exit_code.h"
 #include "console/reporting.h"
 #include "console/stopwatch.h"
@@ -46,22 +46,6 @@ std::vector<NamedTerm> terms_asked_for(const CommandLine& line, const candela::S
         throw Error(ErrorCategory::bad_request,
                     "--terms writes layers, or files next to the picture; name a file with -o");
     return terms_from(words_of(line.get<std::string>("terms")), scene, "--terms");
-}
-
-/// The view that the options name, already searched for.
-std::unique_ptr<ColorView> view_from(const CommandLine& line, const candela::OutputFormat& format) {
-    if (!line.has("view") && !line.has("display") && !line.has("color-config")) return nullptr;
-    if (format.pixels == candela::PixelType::real)
-        throw Error(
-            ErrorCategory::bad_request,
-            fmt::format("--view: files of type .{} have the intensities themselves; programs that open "
-                        "them apply the view",
-                        format.extension));
-    const auto text = [&](const char* option) {
-        return line.has(option) ? line.get<std::string>(option) : std::string();
-    };
-    return std::make_unique<ColorView>(
-        ViewName{.config = text("color-config"), .display = text("display"), .view = text("view")});
 }
 
 /// The files for a picture and its terms.
@@ -212,13 +196,7 @@ int run_render(const std::vector<std::string>& arguments) {
         "all "
         "(docs/user/explaining.md); as layers of an .exr, otherwise as files next to the picture");
     add_luminance_option(line);
-    line.options()(
-        "view", po::value<std::string>()->value_name("NAME"),
-        "show the picture through this view of an OpenColorIO configuration instead of the scene's "
-        "tone curve")("display", po::value<std::string>()->value_name("NAME"),
-                      "the display whose view it is; default: the configuration's")(
-        "color-config", po::value<std::string>()->value_name("FILE"),
-        "the OpenColorIO configuration; default: the environment variable OCIO");
+    add_view_options(line);
     line.options()(
         "part", po::value<std::string>()->value_name("K/N"),
         "render only the K-th of N bands of rows, into the folder FILE.parts; candela assemble combines "

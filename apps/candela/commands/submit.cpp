@@ -15,6 +15,7 @@
 #include "cli/commands.h"
 #include "commands/animation_output.h"
 #include "commands/submission/job_submission.h"
+#include "commands/view_option.h"
 #include "console/exit_code.h"
 #include "console/reporting.h"
 #include "files/output_folder.h"
@@ -177,6 +178,7 @@ int run_submit(const std::vector<std::string>& arguments) {
         "dry-run", "only print the job scripts or command lines");
     add_frame_option(line);
     add_scene_options(line);
+    add_view_options(line);
     if (!line.parse(arguments)) return 0;
     if (!line.has("scene")) throw Error(ErrorCategory::bad_request, "candela submit needs a scene file");
     const Engine engine = engine_from(line);

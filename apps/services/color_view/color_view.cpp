@@ -39,7 +39,8 @@ std::vector<std::string> fields_of(std::string_view line) {
 
 ColorView::ColorView(ViewName name) : name_(std::move(name)) {
     const char* const ocio = std::getenv("OCIO");  // NOLINT(concurrency-mt-unsafe): nothing sets it
-    if (name_.config.empty() && (ocio == nullptr || *ocio == '\0'))
+    config_ = !name_.config.empty() ? name_.config : ocio != nullptr ? ocio : "";
+    if (config_.empty())
         throw Error(ErrorCategory::bad_request,
                     "--view needs an OpenColorIO configuration; name its file with --color-config, or in the "
                     "environment variable OCIO");
@@ -47,6 +48,10 @@ ColorView::ColorView(ViewName name) : name_(std::move(name)) {
                                          "package candela-openimageio");
     program_ = std::make_unique<candela::AnsweringProgram>(
         std::vector<std::string>{program.string(), name_.config, name_.display, name_.view});
+}
+
+std::string ColorView::text() const {
+    return fmt::format("view {}\t{}\t{}", config_, name_.display, name_.view);
 }
 
 std::string ColorView::ask(const std::string& line) {

@@ -19,6 +19,10 @@ class ColorView {
     /// Starts the program. Throws candela::Error if it is not installed or finds no configuration.
     explicit ColorView(ViewName name);
 
+    /// Everything that names it, and its configuration's file, whether or not there is one.
+    std::string text() const;
+    const std::string& config() const { return config_; }
+
     /// Waits until the view is found. Throws candela::Error (bad_request), with the known views or displays.
     void require();
 
@@ -29,5 +33,6 @@ class ColorView {
     std::string ask(const std::string& line);
 
     ViewName name_;
+    std::string config_;
     std::unique_ptr<candela::AnsweringProgram> program_;
 };

@@ -92,6 +92,12 @@ std::optional<std::string> record_text(const fs::path& picture, const std::strin
 InputFingerprints::InputFingerprints(candela::Registry& registry, const candela::OutputFormat& format)
     : registry_(registry), format_(format) {}
 
+void InputFingerprints::depend_on(const std::string& text, const fs::path& file) {
+    std::error_code problem;
+    further_ += text + '\n';
+    if (fs::is_regular_file(file, problem)) further_ += of_file(file) + '\n';
+}
+
 const std::string& InputFingerprints::of_file(const fs::path& file) {
     const auto [known, is_new] = files_.try_emplace(file);
     if (is_new) {
@@ -113,7 +119,7 @@ std::string InputFingerprints::of_plugin(PluginKind kind, const std::string& nam
 std::string InputFingerprints::of(const candela::SceneDraft& draft) {
     candela::Scene scene = draft.scene;
     scene.animation.reset();  // other frames do not affect this one
-    std::string all = scene_text(scene);
+    std::string all = scene_text(scene) + further_;
     // The values of these files are in the text already.
     const std::set<fs::path> read(draft.files.begin(), draft.files.end());
     for (const fs::path& file : input_files(draft)) {

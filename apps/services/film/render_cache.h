@@ -16,6 +16,9 @@ class InputFingerprints {
   public:
     InputFingerprints(candela::Registry& registry, const candela::OutputFormat& format);
 
+    /// Makes all that follow depend on a text as well, and on a file if there is one of that name.
+    void depend_on(const std::string& text, const std::filesystem::path& file);
+
     /// The fingerprint of one frame. Throws candela::Error (failure) if a file cannot be read.
     std::string of(const candela::SceneDraft& draft);
 
@@ -26,6 +29,7 @@ class InputFingerprints {
     candela::Registry& registry_;
     candela::OutputFormat format_;
     std::map<std::filesystem::path, std::string> files_;
+    std::string further_;
 };
 
 /// The state of a picture according to its record and its size, without reading its contents.

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <initializer_list>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "commands/animation_output.h"
 #include "commands/submission/job_submission.h"
+#include "commands/view_option.h"
 #include "film/render_cache.h"
 #include "programs/shell_words.h"
 
@@ -47,6 +49,7 @@ std::optional<Submission> submission_of_frames(const CommandLine& line, int thre
     }
     candela::Registry registry = registry_from(line);
     const candela::OutputFormat format = format_of_frames(line, outputs, registry);
+    const std::unique_ptr<ColorView> view = view_from(line, format);
     bool has_asked = false;
     const candela::SceneRequest request = repeatable_request_from(line, registry, has_asked, Models::moving);
     auto frames = candela::SceneFrames::read(request, registry, diagnostics);
@@ -60,6 +63,7 @@ std::optional<Submission> submission_of_frames(const CommandLine& line, int thre
     if (frames) numbers = checked_frames_from(line, *frames, registry, diagnostics, 0);
     if (!frames || diagnostics.has_errors()) return std::nullopt;
     require_no_input_among(outputs, *frames, numbers);
+    if (view) view->require();
 
     const FramePattern& pattern = *outputs.frames;
     Submission job{.plan = {},
@@ -74,6 +78,10 @@ std::optional<Submission> submission_of_frames(const CommandLine& line, int thre
     const auto frames_word = [](int first, int last) { return fmt::format("--frames={}..{}", first, last); };
     const std::size_t chunk = frames_per_task(line, numbers.size());
     InputFingerprints fingerprints(registry, format);
+    if (view) {
+        fingerprints.depend_on(view->text(), view->config());
+        for (const std::string& word : view_words_from(line, *view)) common.push_back(word);
+    }
     for (std::size_t begin = 0; begin < numbers.size(); begin += chunk) {
         const std::size_t end = std::min(begin + chunk, numbers.size());
         JobTask task{fmt::format("{}..{}", numbers[begin], numbers[end - 1]), {}};

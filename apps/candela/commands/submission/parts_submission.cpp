@@ -9,6 +9,7 @@
 #include "cli/outputs.h"
 #include "cli/scene_compilation.h"
 #include "commands/submission/job_submission.h"
+#include "commands/view_option.h"
 #include "jobs/image_parts.h"
 
 import candela.render;
@@ -40,6 +41,9 @@ fs::path image_from(const CommandLine& line) {
 std::optional<Submission> submission_of_parts(const CommandLine& line, int threads,
                                               candela::Diagnostics& diagnostics) {
     const fs::path picture = image_from(line);
+    if (view_name_from(line))
+        throw Error(ErrorCategory::bad_request,
+                    "--view and --parts cannot be combined: a view applies to the whole picture");
     candela::Registry registry = registry_from(line);
     const candela::OutputFormat format = output_format_from(line, picture, registry);
     bool has_asked = false;
