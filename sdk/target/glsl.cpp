@@ -221,7 +221,8 @@ const GlslDepth k_reversed_depth{
     .statement =
         "    // Depths grow towards the eye; in perspective they are near / distance, which a float buffer "
         "holds with the same relative precision\n    // at all distances.\n"
-        "    gl_FragDepth = is_orthographic ? 1.0 - gl_FragCoord.z : near * gl_FragCoord.w;\n"};
+        "    gl_FragDepth = is_orthographic ? 1.0 - gl_FragCoord.z : near * gl_FragCoord.w;\n",
+    .not_behind = ">="};
 
 GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth, NormalScale normal_scale) {
     require_different_names(scene);
@@ -231,8 +232,9 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth, NormalScal
     const bool has_layers = has_opacity(scene), is_opacity_textured = has_textured_opacity(scene);
     const std::string layer_inputs = std::string(is_opacity_textured ? candela_target_opacity_fragment : "") +
                                      (has_layers ? candela_target_layer_uniforms : "");
-    const std::string cover =
-        filled(candela_target_cover, {{"FIND_OPACITY", is_opacity_textured ? k_find_opacity : ""}});
+    const std::string cover = filled(
+        candela_target_cover,
+        {{"FIND_OPACITY", is_opacity_textured ? k_find_opacity : ""}, {"NOT_BEHIND", depth.not_behind}});
     const std::string lit =
         filled(candela_target_lit,
                {{"PREPARATION", calls_of_preparations(scene)},

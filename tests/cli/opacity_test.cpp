@@ -1,4 +1,4 @@
-// Opacity in scenes: mistakes, where its values are shown, and targets that do not have it.
+// Opacity in scenes: mistakes, and where its values are shown.
 #include <catch2/catch_test_macros.hpp>
 #include <string>
 
@@ -70,22 +70,5 @@ TEST_CASE("explain lists the surfaces at a pixel, with what each covers") {
             succeeded(with_material("opacity = 0.3\nopacity_cutoff = 0.5", d, command)).out;
         CHECK_FALSE(holds(hole, "ball"));
         CHECK(holds(hole, "object 'wall', cube: triangle"));
-    }
-}
-
-TEST_CASE("targets without opacity draw opaque objects, if that is accepted") {
-    const Folder d({{"dot.ppm", k_dot}});
-    for (const char* const target : {"three"}) {
-        const std::string command = std::string("generate scene.toml -o out --target ") + target;
-        const std::string left_out = "the opacity of object ball is left out";
-        INFO(target);
-        const CommandResult refused = with_material("opacity = 0.5", d, command);
-        CHECK(refused.exit_code == 1);
-        CHECK(holds(refused.err, left_out));
-        CHECK(holds(with_material("opacity = { texture = \"dot.ppm\" }", d, command).err, left_out));
-        const CommandResult accepted =
-            succeeded(with_material("opacity = 0.5", d, command + " --approximate"));
-        CHECK(holds(accepted.err, left_out));
-        CHECK_FALSE(holds(with_material("opacity = 0.5\nopacity_cutoff = 0.5", d, command).err, left_out));
     }
 }

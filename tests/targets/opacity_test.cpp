@@ -8,6 +8,7 @@
 
 #include "support/command.h"
 #include "support/expect.h"
+#include "support/folder.h"
 #include "support/text.h"
 
 namespace fs = std::filesystem;
@@ -85,6 +86,10 @@ TEST_CASE("verify: a page peels surfaces that cover a part of what is behind the
     verify(layered_scene(scratch_directory()), "webgl");
 }
 
+TEST_CASE("verify: three.js peels surfaces that cover a part of what is behind them", "[whole]") {
+    verify(layered_scene(scratch_directory()), "three");
+}
+
 TEST_CASE("verify: a C++ program has the shadows of surfaces that let light through", "[whole]") {
     verify(layered_scene(scratch_directory(), "[shadows]\nenabled = true\n"), "cpp");
 }
@@ -94,6 +99,7 @@ TEST_CASE("verify: shaders have the shadows of surfaces that let light through",
     const fs::path scene = layered_scene(folder, "[shadows]\nenabled = true\n");
     SECTION("whose opacity has a texture, also in an OpenGL program") { verify(scene, "opengl"); }
     SECTION("whose opacity has a texture, also in a page") { verify(scene, "webgl"); }
+    SECTION("whose opacity has a texture, also with three.js") { verify(scene, "three"); }
     SECTION("and read no texture if none has one") {
         std::string text = read_file(scene);
         const auto replace = [&](const std::string& texture, const std::string& number) {
@@ -119,3 +125,26 @@ TEST_CASE("generate: the program of a scene without opacity does not mention it"
     const std::string text = read_file(program / "scene.cpp");
     for (const char* const word : {"opacity", "before[", "Crossing"}) CHECK_FALSE(holds(text, word));
 }
+
+#ifdef CANDELA_TEST_FAULTY_PLUGINS
+TEST_CASE("generate: a target without opacity gets opaque objects, if that is accepted") {
+    const Folder folder({{"soft.ppm", soft_picture()}});
+    const auto generated = [&](const std::string& material, const char* option = "") {
+        folder.write("scene.toml",
+                     "version = 1\nimage = { width = 16, height = 8 }\nobserver = { position = [0, 0, 4], "
+                     "look_at = [0, 0, 0] }\nshading = { model = \"phong\" }\nreflection = { model = "
+                     "\"unlit\" }\n[[light]]\ntype = \"ambient\"\n"
+                     "[[object]]\nname = \"ball\"\ntype = \"sphere\"\n[object.material]\n" +
+                         material);
+        return folder.run(
+            fmt::format("generate scene.toml -o out --target approximates-what-is-exact "
+                        "--plugin-dir {} {}",
+                        CANDELA_TEST_FAULTY_PLUGINS, option));
+    };
+    const std::string left_out = "the opacity of object ball is left out";
+    expect(generated("opacity = 0.5\n"), 1, {left_out});
+    expect(generated("opacity = { texture = \"soft.ppm\" }\n"), 1, {left_out});
+    CHECK(holds(succeeded(generated("opacity = 0.5\n", "--approximate")).err, left_out));
+    CHECK_FALSE(holds(succeeded(generated("opacity = 0.5\nopacity_cutoff = 0.5\n")).err, left_out));
+}
+#endif

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "candela/target/textures.h"
 #include "json.h"
 
 namespace candela::three_target {
@@ -76,7 +77,7 @@ std::optional<Json> own_light(const PunctualLight& light, const std::vector<Box>
 }  // namespace
 
 std::optional<Json> own_lights(const ExportedScene& scene, const std::vector<Box>& boxes) {
-    if (scene.has_shadows) return std::nullopt;
+    if (scene.has_shadows || target::has_opacity(scene)) return std::nullopt;
     Json lights = Json::array();
     for (const ExportedLight& light : scene.lights) {
         if (!light.is_data) return std::nullopt;

@@ -17,9 +17,9 @@
 #include "candela/target/kernels.h"
 #include "candela/target/mirror.h"
 #include "candela/target/renderers.h"
-#include "candela/target/shadow_tree.h"
 #include "candela/target/textures.h"
 #include "lights.h"
+#include "page_json.h"
 #include "uniforms.h"
 
 namespace candela::three_target {
@@ -33,7 +33,8 @@ constexpr GlslDepth k_logarithmic_depth{
     .uniform = "uniform float logDepthBufFC;\n",
     .statement =
         "    gl_FragDepth = is_orthographic ? gl_FragCoord.z : 0.5 * logDepthBufFC * log2(1.0 + 1.0 / "
-        "gl_FragCoord.w);\n"};
+        "gl_FragCoord.w);\n",
+    .not_behind = "<="};
 
 /// The models whose normal is interpolated between the vertices, as three.js does it.
 bool is_smooth(const ExportedShading& shading) {
@@ -83,7 +84,7 @@ class Writer {
             {"textures", textures_json()},
             {"lights", lights.value_or(Json::array())},
             {"objects", std::move(objects)}};
-        if (scene_.has_shadows) json["shadows"] = shadows_json();
+        if (scene_.has_shadows) json["shadows"] = shadows_json(scene_, arrays_);
         if (has_mirror_images(scene_))
             json["radiance"] = {
                 {"width", k_radiance_width},
@@ -99,7 +100,8 @@ class Writer {
                        ? Json(arrays_.put(std::as_bytes(std::span<const float>(interleaved(vectors, count)))))
                        : Json();
         };
-        return {{"indices", arrays_.put(std::as_bytes(mesh.indices))},
+        return {{"triangles", mesh.triangle_count()},
+                {"indices", arrays_.put(std::as_bytes(mesh.indices))},
                 {"position", put(mesh.position)},
                 {"normals", Json::array({put(mesh.normals[mesh.normals_of[shading]])})},
                 {"uv", scene_.needs_uv ? put(mesh.uv) : Json()},
@@ -161,6 +163,7 @@ class Writer {
                      {"material_pictures", pictures_json(object)},
                      {"mesh", std::move(mesh)}};
         const Rgb emission = emission_of(object, scene_.image.color_management);
+        put_opacity(json, scene_, index);
         if (has_emission(scene_)) json["uniforms"]["object_emission"] = {emission.r, emission.g, emission.b};
         if (has_occlusion(scene_)) json["uniforms"]["object_occlusion"] = object.occlusion;
         if (scene_.has_shadows) {
@@ -172,22 +175,21 @@ class Writer {
         return json;
     }
 
-    /// The pictures that a material or a normal map reads, each with how it continues beyond its edges.
-    static Json pictures_json(const ExportedObject& object) {
-        Json pictures = Json::array();
-        for (const MaterialPicture& picture : material_pictures(object))
-            pictures.push_back(
-                {picture.texture, static_cast<int>(picture.wrap_u), static_cast<int>(picture.wrap_v)});
-        return pictures;
-    }
-
     Json shaders_json() const {
         const GlslParts glsl = glsl_of(scene_, k_logarithmic_depth);
-        return {
-            {"prelude", glsl.prelude},         {"texture", glsl.texture},       {"lights", glsl.lights},
-            {"reflections", glsl.reflections}, {"shadings", glsl.shadings},     {"materials", glsl.materials},
-            {"normal_maps", glsl.normal_maps}, {"vertex", glsl.vertex},         {"fragment", glsl.fragment},
-            {"screen", glsl.screen},           {"accumulate", glsl.accumulate}, {"encode", glsl.encode}};
+        return {{"prelude", glsl.prelude},
+                {"texture", glsl.texture},
+                {"lights", glsl.lights},
+                {"reflections", glsl.reflections},
+                {"shadings", glsl.shadings},
+                {"materials", glsl.materials},
+                {"normal_maps", glsl.normal_maps},
+                {"opacities", glsl.opacities},
+                {"vertex", glsl.vertex},
+                {"fragment", glsl.fragment},
+                {"screen", glsl.screen},
+                {"accumulate", glsl.accumulate},
+                {"encode", glsl.encode}};
     }
 
     Json textures_json() {
@@ -199,16 +201,6 @@ class Writer {
                                 {"pixels", texture.pixels}});
         }
         return textures;
-    }
-
-    /// The tree of the triangles that block light; the page takes their vertices from the meshes.
-    Json shadows_json() {
-        const ShadowTree tree = shadow_tree(scene_);
-        return {{"nodes", arrays_.put(std::as_bytes(std::span(tree.nodes)))},
-                {"places", arrays_.put(std::as_bytes(std::span(tree.places)))},
-                {"triangles", tree.triangle_count},
-                {"width", k_shadow_tree_width},
-                {"least_margin", tree.least_margin}};
     }
 
     /// Shown as it is written, whatever the exposure.

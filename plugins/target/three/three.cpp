@@ -56,6 +56,7 @@ class ThreeTarget final : public Target {
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,
+                .opacity = true,
                 .shadows = true,
                 .display = true};
     }

@@ -165,6 +165,24 @@ TEST_CASE("target/three: a kernel takes numbers of its material from textures", 
     CHECK(drawn_in_the_middle(folder, scene) == grey(0.75 * 204 / 255));
 }
 
+TEST_CASE("target/three: a wall covers its opacity's part of a wall behind it and of the background",
+          "[programs]") {
+    require_three();
+    const Folder folder = folder_with_wall();
+    const auto scene = [](const std::string& behind) {
+        return wall("[[light]]\ntype = \"ambient\"\nintensity = 1\n") + behind +
+               "[[object]]\ntype = \"mesh\"\nfile = \"wall.obj\"\nposition = [0, 0, 1]\ncolor = [255, 255, "
+               "255]\nmaterial = { ka = 0.8, kd = 0, opacity = 0.25 }\n";
+    };
+    // Of the two, the nearer comes last.
+    CHECK(drawn_in_the_middle(folder, scene("")) == grey(0.25 * 0.8 + 0.75 * 0.5));
+    const std::string between =
+        "[[object]]\ntype = \"mesh\"\nfile = \"wall.obj\"\nposition = [0, 0, 0.5]\ncolor = [255, 255, "
+        "255]\nmaterial = { ka = 0.2, kd = 0, opacity = 0.5 }\n";
+    CHECK(drawn_in_the_middle(folder, scene(between)) == grey(0.25 * 0.8 + 0.75 * (0.5 * 0.2 + 0.5 * 0.5)));
+    CHECK_FALSE(generated(folder, scene(""))["objects"][0]["lambert"].is_object());
+}
+
 TEST_CASE("target/three: kernels compute what three.js computes differently", "[whole]") {
     require_three();
     const Folder folder;

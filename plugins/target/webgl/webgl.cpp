@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <span>
@@ -22,10 +21,10 @@
 #include "candela/target/mirror.h"
 #include "candela/target/page_arrays.h"
 #include "candela/target/page_image.h"
-#include "candela/target/shadow_tree.h"
 #include "candela/target/text_template.h"
 #include "candela/target/textures.h"
 #include "candela/target_plugin.h"
+#include "page_json.h"
 
 CANDELA_EMBED(candela_webgl_page, CANDELA_SOURCE_DIR "/templates/page.html");
 CANDELA_EMBED(candela_webgl_style, CANDELA_WEB "/page.css");
@@ -193,15 +192,6 @@ Json mesh_json(const ExportedScene& scene, const ExportedMesh& mesh, PageArrays&
             {"has_second_uv", static_cast<bool>(mesh.second_uv)}};
 }
 
-/// The pictures that a material or a normal map reads, each with how it continues beyond its edges.
-Json pictures_json(const ExportedObject& object) {
-    Json pictures = Json::array();
-    for (const MaterialPicture& picture : material_pictures(object))
-        pictures.push_back(
-            {picture.texture, static_cast<int>(picture.wrap_u), static_cast<int>(picture.wrap_v)});
-    return pictures;
-}
-
 /// The names of the parameters of its own reflection model that pictures or vertices give.
 Json textured_json(const ExportedScene& scene, const ExportedObject& object) {
     Json names = Json::array();
@@ -242,7 +232,6 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
         {"material", all_textured_numbers(object).empty() ? Json() : Json(index)},
         {"common_material", has_common_textures(object) ? Json(scene.objects.size() + index) : Json()},
         {"normal_map", object.normal_map == nullptr ? Json() : Json(index)},
-        {"opacity_map", object.opacity_numbers.empty() ? Json() : Json(index)},
         {"material_pictures", pictures_json(object)},
         {"mesh", mesh_json(scene, mesh, arrays)}};
     const Rgb emission = emission_of(object, scene.image.color_management);
@@ -253,38 +242,12 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
             {"path", object.normal_map->has_slopes ? "bump_map.height" : "normal_map.scale"},
             {"value", shortest(object.normal_map->scale)}};
     if (has_occlusion(scene)) json["occlusion"] = object.occlusion;
-    if (has_opacity(scene)) {
-        json["opacity"] = object.opacity;
-        json["opacity_cutoff"] = object.opacity_cutoff;
-    }
-    if (has_textured_shadow(scene, object)) {
-        const ExportedTexturedNumber& number = object.opacity_numbers.front();
-        json["shadow_opacity"] = {
-            {"texture", number.texture},
-            {"channel", number.texel_channel},
-            {"wraps", {static_cast<int>(number.wrap[0]), static_cast<int>(number.wrap[1])}},
-            {"placing", number.placing},
-            {"scale", number.scale},
-            {"offset", number.offset}};
-    }
+    put_opacity(json, scene, index);
     if (scene.has_shadows) {
         json["receives_shadows"] = object.receives_shadows;
         json["is_solid"] = mesh.is_solid;
     }
     return json;
-}
-
-/// The tree of the triangles that block light; the page takes their vertices from the meshes.
-Json shadows_json(const ExportedScene& scene, PageArrays& arrays) {
-    const ShadowTree tree = shadow_tree(scene);
-    const auto put = [&](const std::vector<std::int32_t>& numbers) {
-        return arrays.put(std::as_bytes(std::span(numbers)));
-    };
-    return {{"nodes", put(tree.nodes)},
-            {"places", put(tree.places)},
-            {"triangles", tree.triangle_count},
-            {"width", k_shadow_tree_width},
-            {"least_margin", tree.least_margin}};
 }
 
 Json textures_json(const ExportedScene& scene, PageArrays& arrays) {

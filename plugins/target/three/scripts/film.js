@@ -1,64 +1,69 @@
-import { BufferGeometry, Camera, FloatType, GLSL3, HalfFloatType, Mesh, NearestFilter, RawShaderMaterial, WebGLRenderTarget } from "three";
+import { BufferGeometry, Camera, Color, FloatType, GLSL3, HalfFloatType, Mesh, NearestFilter, RawShaderMaterial, WebGLRenderTarget } from "three";
 import { HEADER } from "./materials.js";
 
-/** A pass over all pixels. */
-class Pass {
-    constructor({ shaders }, fragment, uniforms) {
+/** A pass over all pixels, or whatever else the vertex shader makes of `count` vertices of a `Kind`. */
+export class Pass {
+    constructor(vertexShader, fragmentShader, Kind = Mesh, count = 3) {
         const geometry = new BufferGeometry();
-        geometry.setDrawRange(0, 3);
+        geometry.setDrawRange(0, count);
         this.material = new RawShaderMaterial({
-            glslVersion: GLSL3, vertexShader: HEADER + shaders.screen, fragmentShader: HEADER + fragment, uniforms,
-            depthTest: false, depthWrite: false,
+            glslVersion: GLSL3, vertexShader: HEADER + vertexShader, fragmentShader: HEADER + fragmentShader, depthTest: false, depthWrite: false,
         });
-        this.mesh = new Mesh(geometry, this.material);
-        this.mesh.frustumCulled = false;
+        this.object = new Kind(geometry, this.material);
+        this.object.frustumCulled = false;
         this.camera = new Camera();
     }
 
-    draw(renderer, target) {
+    /** `uniforms`: their values, the same ones each time. */
+    draw(renderer, target, uniforms) {
+        for (const [name, value] of Object.entries(uniforms)) (this.material.uniforms[name] ??= {}).value = value;
         renderer.setRenderTarget(target);
-        renderer.render(this.mesh, this.camera);
+        renderer.render(this.object, this.camera);
     }
 }
 
 /** Adds up the pictures of all samples as intensities, and shows them according to the scene's colour management. */
 export class Film {
     constructor(renderer, json) {
-        const { width, height, is_srgb, exposure, tone } = json.image, limit = renderer.capabilities.maxTextureSize;
+        const { shaders, image: { width, height, background } } = json, limit = renderer.capabilities.maxTextureSize;
         if (Math.max(width, height) > limit) throw new Error(`This device draws pictures of at most ${limit} x ${limit} pixels.`);
-        const type = renderer.extensions.has("EXT_color_buffer_float") ? FloatType : HalfFloatType;
-        const target = (depthBuffer) =>
-            new WebGLRenderTarget(width, height, { type, minFilter: NearestFilter, magFilter: NearestFilter, depthBuffer });
         this.renderer = renderer;
-        this.picture = target(true);
-        this.sum = target(false);
-        this.next = target(false);
-        this.addition = new Pass(json, json.shaders.accumulate, { picture: { value: null }, sum: { value: null }, weight: { value: 0 } });
-        this.encoding = new Pass(json, json.shaders.encode, {
-            sum: { value: null }, is_srgb: { value: is_srgb }, exposure: { value: exposure }, tone: { value: tone },
-        });
+        this.image = json.image;
+        this.picture = this.createTarget({});
+        this.sum = this.createTarget({ depthBuffer: false });
+        this.next = this.createTarget({ depthBuffer: false });
+        this.addition = new Pass(shaders.screen, shaders.accumulate);
+        this.encoding = new Pass(shaders.screen, shaders.encode);
+        renderer.setClearColor(new Color(...background), 1);
     }
 
-    clear() {
+    createTarget(options) {
+        const { renderer, image: { width, height } } = this;
+        const type = renderer.extensions.has("EXT_color_buffer_float") ? FloatType : HalfFloatType;
+        return new WebGLRenderTarget(width, height, { type, minFilter: NearestFilter, magFilter: NearestFilter, ...options });
+    }
+
+    clear(target = this.sum) {
         const gl = this.renderer.getContext();
-        this.renderer.setRenderTarget(this.sum);
+        this.renderer.setRenderTarget(target);
         gl.clearBufferfv(gl.COLOR, 0, [0, 0, 0, 0]);
+    }
+
+    /** Fills `picture` with a sample per pixel. */
+    draw(scene, camera) {
+        this.renderer.setRenderTarget(this.picture);
+        this.renderer.render(scene, camera);
     }
 
     /** Draws the scene and adds it. */
     add(scene, camera, weight) {
-        const { renderer, picture, addition: { material: { uniforms } } } = this;
-        renderer.setRenderTarget(picture);
-        renderer.render(scene, camera);
-        uniforms.picture.value = picture.texture;
-        uniforms.sum.value = this.sum.texture;
-        uniforms.weight.value = weight;
-        this.addition.draw(renderer, this.next);
+        this.draw(scene, camera);
+        this.addition.draw(this.renderer, this.next, { picture: this.picture.texture, sum: this.sum.texture, weight });
         [this.sum, this.next] = [this.next, this.sum];
     }
 
     show() {
-        this.encoding.material.uniforms.sum.value = this.sum.texture;
-        this.encoding.draw(this.renderer, null);
+        const { is_srgb, exposure, tone } = this.image;
+        this.encoding.draw(this.renderer, null, { sum: this.sum.texture, is_srgb, exposure, tone });
     }
 }

@@ -2,8 +2,8 @@ import { BufferAttribute, BufferGeometry, Mesh } from "three";
 import { floatsOf, indicesOf } from "../../../../sdk/web/arrays.js";
 import { VertexArrays, boxOf, sizeOf } from "../../../../sdk/web/vertex_arrays.js";
 
-/** Whether a picture gives an object's colour or numbers of its material, or tilts its normals. */
-export const isTextured = ({ material, normal_map }) => material !== null || normal_map !== null;
+/** Whether a picture gives an object's colour, numbers of its material or its opacity, or tilts its normals. */
+export const isTextured = ({ material, normal_map, opacity_map }) => [material, normal_map, opacity_map].some((text) => text !== null);
 
 /** For three.js's own materials: positions, normals and colours, by their usual names. */
 function usualGeometry({ position, normals, color, indices }) {
@@ -18,7 +18,9 @@ function usualGeometry({ position, normals, color, indices }) {
 /** For kernels: everything that a shading model may ask for. */
 function kernelGeometry(object) {
     const geometry = new BufferGeometry(), arrays = new VertexArrays(object.mesh);
-    const sources = arrays.sourcesOf({ rate: object.rate, seesTriangle: object.sees_triangle, isTextured: isTextured(object) }, 0);
+    const sources = arrays.sourcesOf({
+        rate: object.rate, seesTriangle: object.sees_triangle, isTextured: isTextured(object), hasOpacityMap: object.opacity_map !== null,
+    }, 0);
     for (const [name, source] of Object.entries(sources)) {
         const size = sizeOf(name);
         const values = typeof source === "string" ? arrays.valuesOf(source)

@@ -31,14 +31,20 @@ function radianceTexture({ texels, width }) {
 }
 
 /** The uniforms with which shaders find out whether light is blocked; none in a scene without shadows. */
-function shadowUniforms({ shadows, objects, image }) {
+function shadowUniforms({ shadows, objects, textures, image }) {
     if (!shadows) return {};
-    const { height, texels } = shadowTexels(shadows, objects);
+    const { height, texels } = shadowTexels(shadows, objects, textures, image.is_srgb);
     return {
         shadow_tree: { value: dataTexture(texels, shadows.width, height, RGBAIntegerFormat, IntType, "RGBA32I") },
         least_margin: { value: shadows.least_margin }, picture_height: { value: image.height },
     };
 }
+
+/** Whether something may be seen through an object. */
+export const hasLayers = ({ objects }) => objects.some(({ opacity }) => opacity !== undefined);
+
+const opacityUniforms = ({ opacity, opacity_cutoff }) =>
+    (opacity === undefined ? {} : { object_opacity: { value: opacity }, object_opacity_cutoff: { value: opacity_cutoff } });
 
 /** A picture's texels, and what shaders know of it. */
 function pictureOf(picture, isSrgb) {
@@ -76,6 +82,8 @@ export class KernelMaterials {
         this.lights.table_numbers = { value: tableTexture(Float32Array, bytesOf(json.tables), 1, json.table_width, RedFormat, FloatType, "R32F") };
         if (json.radiance) this.lights.radiance_texels = { value: radianceTexture(json.radiance) };
         this.shadows = shadowUniforms(json);
+        /** The uniforms of the layer that is drawn, in a scene with opacity. */
+        this.layer = hasLayers(json) ? { covered: { value: null }, depth_before: { value: null }, is_first_layer: { value: true } } : {};
         this.mostPictures = Math.max(0, ...json.objects.map((object) => object.material_pictures.length));
         this.textures = json.textures.map((picture) => pictureOf(picture, json.image.is_srgb));
     }
@@ -101,9 +109,10 @@ export class KernelMaterials {
             (hasMaterial ? "#define TEXTURED_MATERIAL\n" : "") + [
             shaders.prelude, isTextured(object) ? shaders.texture : "", shaders.lights, shaders.reflections[object.reflection],
             shaders.shadings[object.shading], hasMaterial ? shaders.materials[object.material] : "",
-            object.normal_map !== null ? shaders.normal_maps[object.normal_map] : "", "",
+            object.normal_map !== null ? shaders.normal_maps[object.normal_map] : "",
+            object.opacity_map !== null ? shaders.opacities[object.opacity_map] : "", "",
         ].join("\n");
-        const uniforms = { ...this.seen, ...this.lights, ...this.shadows, ...this.textureUniforms(object) };
+        const uniforms = { ...this.seen, ...this.lights, ...this.shadows, ...this.layer, ...this.textureUniforms(object), ...opacityUniforms(object) };
         for (const [name, value] of Object.entries(object.uniforms)) uniforms[name] = { value };
         return new RawShaderMaterial({
             glslVersion: GLSL3, vertexShader: common + shaders.vertex, fragmentShader: common + shaders.fragment, uniforms, side: sideOf(object),

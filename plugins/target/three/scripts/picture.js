@@ -1,30 +1,30 @@
-import { Color, ColorManagement, Scene, WebGLRenderer } from "three";
+import { ColorManagement, Scene, WebGLRenderer } from "three";
 import { clippingPlanes, lineOfSight, pixelSize, viewAxes } from "../../../../sdk/web/camera.js";
 import { scale } from "../../../../sdk/web/vectors.js";
 import { cameraOf } from "./camera.js";
 import { Film } from "./film.js";
 import { geometryOf } from "./geometry.js";
 import { lightsOf } from "./lights.js";
-import { KernelMaterials, materialOf } from "./materials.js";
+import { LayeredFilm } from "./layers.js";
+import { KernelMaterials, hasLayers, materialOf } from "./materials.js";
 
 /** The scene in three.js, and its picture on a canvas. */
 export class Picture {
     constructor(json, canvas) {
-        const { width, height, background } = json.image;
+        const { width, height } = json.image;
         // Colours come as intensities, and the film encodes the sum of all samples.
         ColorManagement.enabled = false;
         this.json = json;
         this.renderer = new WebGLRenderer({ canvas, antialias: false, alpha: false, logarithmicDepthBuffer: true });
         this.renderer.setPixelRatio(1);
         this.renderer.setSize(width, height, false);
-        this.renderer.setClearColor(new Color(...background), 1);
         this.renderer.debug.onShaderError = (gl, program, ...shaders) => {
             const logs = shaders.map((shader) => gl.getShaderInfoLog(shader));
             throw Object.assign(new Error("The graphics driver cannot compile a shader."), { detail: logs.join("\n").trim() });
         };
-        this.film = new Film(this.renderer, json);
         this.scene = new Scene();
         const kernels = new KernelMaterials(json);
+        this.film = hasLayers(json) ? new LayeredFilm(this.renderer, json, kernels.layer) : new Film(this.renderer, json);
         this.seen = kernels.seen;
         this.bounds = [];
         for (const object of json.objects) {

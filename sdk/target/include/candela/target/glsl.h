@@ -42,6 +42,7 @@ struct GlslParts {
 struct GlslDepth {
     const char* uniform;
     const char* statement;
+    const char* not_behind;  // the comparison that holds of a depth at or before another
 };
 
 /// Depths grow towards the eye, from the uniform `near`; in perspective they are near / distance, which a
