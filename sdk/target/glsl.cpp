@@ -165,9 +165,33 @@ std::string look_up_text(const ExportedScene& scene, const char* place, const ch
     if (!text.empty()) text += "#ifdef TEXTURED_MATERIAL\n    find_material();\n#endif\n";
     return text;
 }
-constexpr const char* k_find_opacity =
-    "#ifdef OPACITY_AT_FRAGMENT\n    lit_place = seen_place;\n    lit_uv = seen_uv;\n#endif\n"
-    "#ifdef TEXTURED_OPACITY\n    opacity = textured_opacity();\n#endif\n";
+
+/// The numbers of the vertices that an opacity reads go to the fragments where light is not evaluated there.
+struct OpacityTexts {
+    std::string pass, receive, find;  // of the vertex shader, of the fragment shader, and in its main()
+};
+OpacityTexts opacity_texts(const ExportedScene& scene) {
+    if (!has_textured_opacity(scene)) return {};
+    const auto if_channels = [&](std::string_view text) {
+        return has_opacity_of_channels(scene) ? fmt::format("#ifdef OPACITY_READS_CHANNELS\n{}#endif\n", text)
+                                              : std::string();
+    };
+    return {.pass = filled(
+                candela_target_opacity_vertex,
+                {{"CHANNELS_OUT", if_channels("out vec2 seen_channels;\n")},
+                 {"PASS_CHANNELS", if_channels("    at_channel_edges = channel_edges;\n"
+                                               "    lit_channels_0 = channels_0;\n"
+                                               "    lit_channels_1 = channels_1;\n"
+                                               "    seen_channels = numbers_of_corner(opacity_channels(), "
+                                               "channel_edges);\n")}}),
+            .receive = filled(candela_target_opacity_fragment,
+                              {{"CHANNELS_IN", if_channels("in vec2 seen_channels;\n")}}),
+            .find =
+                "#ifdef OPACITY_AT_FRAGMENT\n#ifdef READS_PICTURES\n    lit_place = seen_place;\n"
+                "    lit_uv = seen_uv;\n#endif\n" +
+                if_channels("    set_opacity_channels(seen_channels);\n") +
+                "#endif\n#ifdef TEXTURED_OPACITY\n    opacity = textured_opacity();\n#endif\n"};
+}
 constexpr const char* k_shading_normal = "    s.normal = facing * shading_normal(point);\n";
 constexpr const char* k_mapped_normal =
     "#if defined(NORMAL_MAPPED) && defined(LIT_AT_FRAGMENT)\n"
@@ -229,12 +253,11 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth, NormalScal
     const bool is_textured = !scene.textures.empty();
     GlslParts parts;
     const auto if_shadows = [&](const char* text) { return scene.has_shadows ? text : ""; };
-    const bool has_layers = has_opacity(scene), is_opacity_textured = has_textured_opacity(scene);
-    const std::string layer_inputs = std::string(is_opacity_textured ? candela_target_opacity_fragment : "") +
-                                     (has_layers ? candela_target_layer_uniforms : "");
-    const std::string cover = filled(
-        candela_target_cover,
-        {{"FIND_OPACITY", is_opacity_textured ? k_find_opacity : ""}, {"NOT_BEHIND", depth.not_behind}});
+    const bool has_layers = has_opacity(scene);
+    const OpacityTexts opacity = opacity_texts(scene);
+    const std::string layer_inputs = opacity.receive + (has_layers ? candela_target_layer_uniforms : "");
+    const std::string cover =
+        filled(candela_target_cover, {{"FIND_OPACITY", opacity.find}, {"NOT_BEHIND", depth.not_behind}});
     const std::string lit =
         filled(candela_target_lit,
                {{"PREPARATION", calls_of_preparations(scene)},
@@ -261,9 +284,9 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth, NormalScal
             {{needs_triangle, candela_target_triangle_vertex, "PASS_TRIANGLE", k_triangle,
               "pass_triangle();"},
              {is_textured, candela_target_texture_vertex, "PASS_TEXTURE", k_texture, "pass_texture();"},
-             {is_opacity_textured, candela_target_opacity_vertex, "PASS_OPACITY", k_opacity,
-              "pass_opacity(position, uv);"},
-             {has_channels, candela_target_channels_vertex, "PASS_CHANNELS", k_channels, "pass_channels();"}},
+             {has_channels, candela_target_channels_vertex, "PASS_CHANNELS", k_channels, "pass_channels();"},
+             {has_textured_opacity(scene), opacity.pass.c_str(), "PASS_OPACITY", k_opacity,
+              "pass_opacity(position, uv);"}},
             {{"MATERIAL", look_up_text(scene, "", "")},
              {"CORNER", if_shadows("flat out vec3 at_corner;\n")},
              {"PASS_CORNER", if_shadows("    at_corner = position;\n")}});

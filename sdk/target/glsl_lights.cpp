@@ -254,16 +254,32 @@ constexpr const char* k_blocked_part =
 constexpr const char* k_textured_blocked_part =
     "    if (blocked_part < 0.0) blocked_part = textured_blocked_part(triangle, vec3(w, u, v) / whole);\n";
 
+constexpr const char* k_shadow_picture =
+    "float shadow_picture_texel(int first, int number) {\n"
+    "    return float(tree_texel(first + (number >> 2))[number & 3]) / 65535.0;\n}\n\n";
+constexpr const char* k_look_up_shadow_picture =
+    "    ivec4 picture = tree_texel(third.z + 1);\n"
+    "    ColorTexture t = ColorTexture(picture.x, picture.y, 1, picture.w % 3, picture.w / 3, -picture.z);\n"
+    "    if (picture.x > 0) number = color_texture_in_level(t, 0, numbers).r;\n";
+
+/// How shadows find opacities that differ within a triangle.
+std::string varying_opacity(const ExportedScene& scene) {
+    const bool has_pictures = has_shadow_pictures(scene);
+    return (has_pictures ? texture_of_shadows(scene) : "") +
+           filled(candela_target_shadow_opacity, {{"PICTURE", has_pictures ? k_shadow_picture : ""},
+                                                  {"LOOK_UP", has_pictures ? k_look_up_shadow_picture : ""}});
+}
+
 /// The parts of the shadows' text for surfaces that light passes in part.
 Values passing_texts(const ExportedScene& scene) {
     const bool passes = lets_light_through(scene), is_textured = has_textured_shadows(scene);
     const auto if_passes = [&](const char* text, const char* otherwise = "") {
         return std::string(passes ? text : otherwise);
     };
-    return {{"OPACITY_COMMENT", if_passes(" Of the second: the part of the light that it\n"
-                                          "// blocks, as bits of a float; below 0: a texture gives it.")},
-            {"PASSING", if_passes(candela_target_light_passes) +
-                            (is_textured ? texture_of_shadows(scene) + candela_target_shadow_opacity : "")},
+    return {{"OPACITY_COMMENT",
+             if_passes(" Of the second: the part of the light that it\n"
+                       "// blocks, as bits of a float; below 0: a texture or its vertices give it.")},
+            {"PASSING", if_passes(candela_target_light_passes) + (is_textured ? varying_opacity(scene) : "")},
             {"OWNS_EDGES",
              if_passes("    float whole = u + v + w;\n"
                        "    bool is_owned = owns_edge(u, to_c, whole) && owns_edge(v, to_a, whole) && "

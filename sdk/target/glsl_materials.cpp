@@ -39,10 +39,15 @@ std::string texel_text(const ExportedObject& object, const Reader& reader) {
                        row(reader.placing, 0), row(reader.placing, 3));
 }
 
+/// The variable of a channel of the vertices.
+std::string channel_text(std::size_t channel) {
+    return fmt::format("lit_channels_{}.{}", channel / 4, "xyzw"[channel % 4]);
+}
+
 /// Looks up a number's texel, or its channel of the vertices.
 std::string texel_text(const ExportedObject& object, const ExportedTexturedNumber& number) {
     if (!is_of_vertices(number)) return texel_text<ExportedTexturedNumber>(object, number);
-    return fmt::format("lit_channels_{}.{}", number.vertex_channel / 4, "xyzw"[number.vertex_channel % 4]);
+    return channel_text(number.vertex_channel);
 }
 
 /// Declares what an object's texts read. The declarations of several texts meet in one shader.
@@ -91,6 +96,28 @@ std::string text_of(const ExportedScene& scene, const ExportedObject& object, bo
                                       common);
 }
 
+/// How the numbers of the vertices that an opacity reads are taken from, and put back to, the variables of
+/// reading_text().
+std::string opacity_channels_text(const ExportedObject& object) {
+    const auto first = opacity_channel(object);
+    if (!first) return "";
+    if (std::ranges::none_of(object.opacity_numbers, is_of_vertices))
+        return "#define OPACITY_READS_CHANNELS\n"
+               "vec2 opacity_channels() { return lit_channels_0.xy; }\n"
+               "void set_opacity_channels(vec2 numbers) { lit_channels_0.xy = numbers; }\n";
+    const std::string number = channel_text(*first);
+    return fmt::format(
+        "#define OPACITY_READS_CHANNELS\n"
+        "vec2 opacity_channels() {{ return vec2({0}, 0.0); }}\n"
+        "void set_opacity_channels(vec2 numbers) {{ {0} = numbers.x; }}\n",
+        number);
+}
+
+/// Whether it is a product that opacity_channel() does not suffice for.
+bool reads_several_channels(const ExportedObject& object) {
+    return std::ranges::count_if(object.opacity_numbers, reads_channels) > 1;
+}
+
 std::string opacity_text_of(const ExportedObject& object) {
     if (object.opacity_numbers.empty()) return "";
     std::string texels, product;
@@ -101,17 +128,12 @@ std::string opacity_text_of(const ExportedObject& object) {
                               texel_text(object, number));
         product += (i == 0 ? "" : " * ") + number_text(number, texel);
     }
-    return reading_text(object) + fmt::format(
-                                      "{}#define TEXTURED_OPACITY\n"
-                                      "// {}: a texture gives its opacity.\n"
-                                      "float textured_opacity() {{\n{}    return {};\n}}\n",
-                                      k_number_of, ascii_identifier(object.label), texels, product);
-}
-
-bool takes_opacity_from_channels(const ExportedObject& object) {
-    return std::ranges::any_of(object.opacity_numbers, [](const ExportedTexturedNumber& number) {
-        return number.uv != 0 || is_of_vertices(number);
-    });
+    return reading_text(object) + opacity_channels_text(object) +
+           fmt::format(
+               "{}#define TEXTURED_OPACITY\n"
+               "// {}: a texture gives its opacity.\n"
+               "float textured_opacity() {{\n{}    return {};\n}}\n",
+               k_number_of, ascii_identifier(object.label), texels, product);
 }
 
 std::string normal_text_of(const ExportedObject& object, NormalScale normal_scale) {
@@ -168,26 +190,20 @@ std::vector<std::string> textured_materials(const ExportedScene& scene) {
 
 std::vector<std::string> textured_opacities(const ExportedScene& scene) {
     std::vector<std::string> all;
+    const bool has_slower_rates = std::ranges::any_of(
+        scene.shadings, [](const auto& model) { return model.rate != ShadingRate::fragment; });
     for (const ExportedObject& object : scene.objects) {
         all.push_back(opacity_text_of(object));
-        if (takes_opacity_from_channels(object) && std::ranges::any_of(scene.shadings, [](const auto& model) {
-                return model.rate != ShadingRate::fragment;
-            }))
+        if (has_slower_rates && reads_several_channels(object))
             throw std::runtime_error(fmt::format(
-                "the opacity of object {} depends on numbers of its vertices or on their second texture "
-                "coordinates, which shaders read only where light is evaluated for each fragment; use "
-                "shading \"phong\" for all objects",
+                "the opacity of object {} is a product of several numbers of its vertices, which shaders "
+                "read only "
+                "where light is evaluated for each fragment; use shading \"phong\" for all objects",
                 object.label));
         if (scene.has_shadows && object.casts_shadows && object.opacity_numbers.size() > 1)
             throw std::runtime_error(fmt::format(
                 "the shadows of shaders do not read the opacity of object {}, which is a product; set "
                 "casts_shadows = false, or draw the scene with --no-shadows",
-                object.label));
-        if (scene.has_shadows && object.casts_shadows && takes_opacity_from_channels(object))
-            throw std::runtime_error(fmt::format(
-                "the shadows of shaders do not read the opacity of object {}, which numbers of its "
-                "vertices give or a texture on second texture coordinates; set casts_shadows = "
-                "false, or draw the scene with --no-shadows",
                 object.label));
     }
     return all;
@@ -255,7 +271,7 @@ std::string material_units(const ExportedScene& scene) {
 }
 
 std::string texture_functions(const ExportedScene& scene, const std::string& units) {
-    const bool in_shadows = has_textured_shadows(scene);
+    const bool in_shadows = has_shadow_pictures(scene);
     return filled(
                candela_target_texture,
                {{"UNITS", units},

@@ -19,8 +19,8 @@ bool has_common_textures(const ExportedScene& scene);
 /// Declares own_emission and own_occlusion, of an object or a point, in a scene where objects have them.
 std::string common_material(const ExportedScene& scene);
 
-/// For each object, GlslParts::opacities. Throws std::runtime_error if one casts shadows whose
-/// opacity numbers of its vertices give, or a texture on second texture coordinates.
+/// For each object, GlslParts::opacities. Throws std::runtime_error for a product that shaders do not read:
+/// in shadows, or of several numbers of the vertices where light is not evaluated for each fragment.
 std::vector<std::string> textured_opacities(const ExportedScene& scene);
 
 /// For each object, GlslParts::normal_maps.

@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "candela/target/textures.h"
+
 namespace candela::target {
 
 namespace {
@@ -169,6 +171,12 @@ bool lets_light_through(const ExportedScene& scene) {
 
 bool has_textured_shadow(const ExportedScene& scene, const ExportedObject& object) {
     return scene.has_shadows && object.casts_shadows && !object.opacity_numbers.empty();
+}
+
+bool has_shadow_pictures(const ExportedScene& scene) {
+    return std::ranges::any_of(scene.objects, [&](const ExportedObject& object) {
+        return has_textured_shadow(scene, object) && !is_of_vertices(object.opacity_numbers.front());
+    });
 }
 
 bool has_textured_shadows(const ExportedScene& scene) {

@@ -137,6 +137,19 @@ bool has_textured_opacity(const ExportedScene& scene) {
                                [](const ExportedObject& object) { return !object.opacity_numbers.empty(); });
 }
 
+bool reads_channels(const ExportedTexturedNumber& number) { return number.uv != 0 || is_of_vertices(number); }
+
+std::optional<std::size_t> opacity_channel(const ExportedObject& object) {
+    const auto number = std::ranges::find_if(object.opacity_numbers, reads_channels);
+    if (number == object.opacity_numbers.end()) return std::nullopt;
+    return is_of_vertices(*number) ? number->vertex_channel : 0;
+}
+
+bool has_opacity_of_channels(const ExportedScene& scene) {
+    return std::ranges::any_of(
+        scene.objects, [](const ExportedObject& object) { return opacity_channel(object).has_value(); });
+}
+
 std::vector<ExportedTexturedNumber> all_textured_numbers(const ExportedObject& object) {
     std::vector<ExportedTexturedNumber> all;
     for (const auto numbers :

@@ -40,19 +40,22 @@ inline nlohmann::json shadows_json(const ExportedScene& scene, PageArrays& array
 /// Adds an object's opacity to its JSON. `index`: of the object, and of its text in GlslParts::opacities.
 inline void put_opacity(nlohmann::json& json, const ExportedScene& scene, std::size_t index) {
     const ExportedObject& object = scene.objects[index];
+    const auto channel = opacity_channel(object);
     json["opacity_map"] = object.opacity_numbers.empty() ? nlohmann::json() : nlohmann::json(index);
+    json["opacity_channel"] = channel ? nlohmann::json(*channel) : nlohmann::json();
     if (has_opacity(scene)) {
         json["opacity"] = object.opacity;
         json["opacity_cutoff"] = object.opacity_cutoff;
     }
     if (!has_textured_shadow(scene, object)) return;
     const ExportedTexturedNumber& number = object.opacity_numbers.front();
-    json["shadow_opacity"] = {{"texture", number.texture},
-                              {"channel", number.texel_channel},
-                              {"wraps", {static_cast<int>(number.wrap[0]), static_cast<int>(number.wrap[1])}},
-                              {"placing", number.placing},
-                              {"scale", number.scale},
-                              {"offset", number.offset}};
+    json["shadow_opacity"] = {{"scale", number.scale}, {"offset", number.offset}};
+    if (is_of_vertices(number)) return;
+    json["shadow_opacity"]["picture"] = {
+        {"texture", number.texture},
+        {"channel", number.texel_channel},
+        {"wraps", {static_cast<int>(number.wrap[0]), static_cast<int>(number.wrap[1])}},
+        {"placing", number.placing}};
 }
 
 }  // namespace candela::target

@@ -6,13 +6,13 @@ export const ATTRIBUTES = ["position", "place", "vertex_normal", "face_normal", 
     "vertex_color"];
 /** The inputs of shading models that read their triangle, equal at its three vertices. */
 export const TRIANGLE_ATTRIBUTES = ["p0", "p1", "p2", "n0", "n1", "n2"];
-/** Numbers of the vertices, in the places of n0, n1, n2. The first two may be second texture coordinates. */
-const CHANNEL_ATTRIBUTES = ["second_uv_edges", "channels_0", "channels_1"];
+/** Numbers of the vertices, in the places of n0, n1, n2. The first two may be second texture coordinates. "channel_edges": how two of them change. */
+const CHANNEL_ATTRIBUTES = ["channel_edges", "channels_0", "channels_1"];
 /** The location of each of the vertex shader's inputs. "uv_edges": how u and v change from a triangle's first vertex to the second and the third. */
 export const LOCATIONS = Object.fromEntries([
     ...[...ATTRIBUTES, ...TRIANGLE_ATTRIBUTES].entries(), ...CHANNEL_ATTRIBUTES.map((name, i) => [12 + i, name]), [15, "uv_edges"],
 ].map(([location, name]) => [name, location]));
-export const sizeOf = (attribute) => ({ uv: 2, uv_edges: 4, second_uv_edges: 4, channels_0: 4, channels_1: 4 })[attribute] ?? 3;
+export const sizeOf = (attribute) => ({ uv: 2, uv_edges: 4, channel_edges: 4, channels_0: 4, channels_1: 4 })[attribute] ?? 3;
 
 function boundsOf(positions) {
     const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
@@ -84,20 +84,20 @@ export class VertexArrays {
         this.positions = expandIndexed(positions, this.indices, 3);
     }
 
-    /** The sources of the numbers of the vertices. */
-    channelSources(rate) {
+    /** The sources of the numbers of the vertices. `opacityChannel`: the first of two that the opacity reads, or null. */
+    channelSources(rate, opacityChannel) {
         const { channels, has_second_uv: hasSecondUv } = this.mesh;
         if (!channels?.length) return {};
-        const mean = rate === "face" ? " mean" : "";
+        const mean = rate === "face" ? " mean" : "", withEdges = rate !== "fragment" ? opacityChannel : hasSecondUv ? 0 : null;
         return {
             channels_0: `channels 0${mean}`,
             ...(channels.length > 4 ? { channels_1: `channels 1${mean}` } : {}),
-            ...(hasSecondUv && rate === "fragment" ? { second_uv_edges: "second uv edges" } : {}),
+            ...(withEdges !== null ? { channel_edges: `edges of channels ${withEdges}` } : {}),
         };
     }
 
     /** For each attribute the name of its values, or three numbers if it is the same everywhere. */
-    sourcesOf({ rate, seesTriangle, isTextured, hasOpacityMap = false }, normalSet) {
+    sourcesOf({ rate, seesTriangle, isTextured, hasOpacityMap = false, opacityChannel = null }, normalSet) {
         const { uv, dpdu, dpdv, color } = this.mesh;
         const mean = rate === "face" ? " mean" : "", readsAtFragment = isTextured && (rate === "fragment" || hasOpacityMap);
         const normals = `normals ${normalSet}${mean}`;
@@ -107,7 +107,7 @@ export class VertexArrays {
             ...(seesTriangle ? Object.fromEntries(triangle) : {}),
             ...(readsAtFragment ? Object.fromEntries(triangle.slice(0, 3)) : {}),
             ...(readsAtFragment && uv !== null ? { uv_edges: "uv edges" } : {}),
-            ...(isTextured ? this.channelSources(rate) : {}),
+            ...(isTextured ? this.channelSources(rate, opacityChannel) : {}),
             position: "position",
             place: `position${mean}`,
             vertex_normal: normals,
@@ -132,7 +132,7 @@ export class VertexArrays {
             return averagePerTriangle(this.valuesOf(base), base === "uv" ? 2 : base.startsWith("channels ") ? 4 : 3);
         }
         if (name.startsWith("channels ")) return this.channels(4 * Number(name.at(-1)), 4);
-        if (name === "second uv edges") return edgesPerTriangle(this.channels(0, 2));
+        if (name.startsWith("edges of channels ")) return edgesPerTriangle(this.channels(Number(name.at(-1)), 2));
         if (/ of [012]$/.test(name)) return repeatCorner(this.valuesOf(name.slice(0, -" of 0".length)), Number(name.at(-1)));
         if (name === "uv edges") return edgesPerTriangle(this.valuesOf("uv"));
         if (name === "position") return this.positions;

@@ -62,17 +62,18 @@ std::string soft_picture() {
 }
 
 /// One for each rate at which light is evaluated.
-std::string objects(const std::string& object, const std::string& material) {
+std::string objects(const std::string& object, const std::string& material, double z = 0) {
     std::string text;
     for (const char* const shading : {"phong", "gouraud", "flat"})
         text += fmt::format(
-            "[[object]]\nname = \"{0}\"\ntype = \"mesh\"\nfile = \"bulge.glb\"\nposition = [{1}, 0, 0]\n"
+            "[[object]]\nname = \"{0} at {4}\"\ntype = \"mesh\"\nfile = \"bulge.glb\"\nposition = [{1}, 0, "
+            "{4}]\n"
             "rotation = [-20, 25, 0]\nshading = \"{0}\"\nreflection = \"phong\"\n{2}[object.material]\n{3}",
             shading,
             shading[0] == 'p'   ? -1.3
             : shading[0] == 'g' ? 0
                                 : 1.3,
-            object, material);
+            object, material, z);
     return text;
 }
 
@@ -99,6 +100,15 @@ constexpr const char* k_attributes =
     "shininess = { attribute = \"color\", channel = \"a\", scale = 20, offset = 2 }\n"
     "emission = { attribute = \"color\", scale = 0.1 }\n"
     "occlusion = { attribute = \"color\", channel = \"g\" }\n";
+
+constexpr const char* k_second_picture =
+    "{ texture = \"soft.ppm\", channel = \"g\", uv = 1, transform = { scale = [1.4, 1.2] } }";
+
+/// Another one, behind the others; its material follows.
+constexpr const char* k_behind =
+    "[[object]]\nname = \"behind\"\ntype = \"mesh\"\nfile = \"bulge.glb\"\nposition = [-0.4, -0.2, "
+    "-0.6]\nscale = [3, 1.6, 1]\nshading = \"flat\"\nreflection = \"phong\"\ncolor = [250, 90, "
+    "60]\n[object.material]\n";
 
 }  // namespace
 
@@ -128,16 +138,55 @@ TEST_CASE(
     for (const char* const target : {"cpp", "opengl", "webgl", "three"}) verify(placed, target);
 }
 
-TEST_CASE("verify: programs have an opacity that the vertices give, in shaders where light is per fragment") {
+TEST_CASE(
+    "verify: programs have an opacity that the vertices give, or a picture by their second coordinates") {
     const fs::path folder = scratch_directory();
-    const char* const k_opacity = "opacity = { attribute = \"color\", channel = \"a\" }\n";
-    const std::string every_rate = objects("", k_opacity);
-    const fs::path of_fragments = scene(folder, every_rate.substr(0, every_rate.find("[[object]]", 1)));
-    for (const char* const target : {"opengl", "webgl"}) verify(of_fragments, target);
-    const fs::path all = scene(folder, every_rate);
-    expect(run_candela({"generate", all.string(), "--target", "webgl", "-o", (folder / "page").string()}), 1,
-           {"the opacity of object phong depends on numbers of its vertices", "use shading \"phong\""});
-    verify(all, "cpp");
+    const fs::path covering = scene(
+        folder,
+        objects("", "opacity = { attribute = \"color\", channel = \"a\", scale = 0.8, offset = 0.1 }\n") +
+            k_behind + "opacity = " + k_second_picture + "\n");
+    for (const char* const target : {"cpp", "opengl", "webgl", "three"}) verify(covering, target);
+}
+
+TEST_CASE("verify: cut-outs by numbers of the vertices have the same edge at every rate", "[whole]") {
+    const fs::path folder = scratch_directory();
+    const fs::path cut = scene(
+        folder,
+        objects("", "opacity = { attribute = \"_WEAR\" }\nopacity_cutoff = 0.55\n") +
+            // A picture of its material is placed by the first coordinates, one of its opacity by the second.
+            objects("",
+                    std::string("kd = { texture = \"soft.ppm\" }\nopacity = ") + k_second_picture +
+                        "\nopacity_cutoff = 0.5\n",
+                    -1));
+    for (const char* const target : {"cpp", "opengl", "webgl", "three"}) verify(cut, target);
+}
+
+TEST_CASE("verify: shadows have an opacity that the vertices give, or a picture by their second coordinates",
+          "[whole]") {
+    const fs::path folder = scratch_directory();
+    const std::string of_vertices =
+        "opacity = { attribute = \"color\", channel = \"a\", scale = 0.8, offset = 0.1 }\n";
+    const std::string wall =
+        "[shadows]\nenabled = true\n[[object]]\ntype = \"cube\"\nsize = 3\nposition = [0, 0, -2.2]\nshading "
+        "= "
+        "\"phong\"\nreflection = \"lambert\"\n";
+    SECTION("of both, next to a picture by the first coordinates") {
+        const fs::path all = scene(
+            folder, wall + objects("", of_vertices) + k_behind + "opacity = " + k_second_picture + "\n" +
+                        "[[object]]\ntype = \"sphere\"\nradius = 0.3\nposition = [0, 0.9, 0.5]\nshading = "
+                        "\"gouraud\"\nreflection = \"lambert\"\n[object.material]\nopacity = { texture = "
+                        "\"soft.ppm\" }\n");
+        for (const char* const target : {"cpp", "opengl", "webgl", "three"}) verify(all, target);
+    }
+    SECTION("and read no picture if there is none") {
+        const fs::path plain = scene(folder, wall + objects("", of_vertices + "opacity_cutoff = 0.5\n"));
+        for (const char* const target : {"opengl", "webgl"}) verify(plain, target);
+        const fs::path program = folder / "program";
+        succeeded(run_candela({"generate", plain.string(), "--target", "opengl", "-o", program.string()}));
+        const std::string text = read_file(program / "scene.cpp");
+        CHECK(holds(text, "textured_blocked_part"));
+        for (const char* const word : {"shadow_picture_texel", "read_ppm"}) CHECK_FALSE(holds(text, word));
+    }
 }
 
 TEST_CASE("verify: programs have an opacity that is a product of pictures and of numbers of the vertices") {

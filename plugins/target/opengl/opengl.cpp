@@ -103,11 +103,15 @@ class OpenGlWriter {
             values.insert(values.end(), more.begin(), more.end());
         write(files, "scene.cpp", filled(candela_opengl_scene, views_of(values)));
         values.emplace_back("ARRAYS", arrays_);
-        values.emplace_back("CHANNELS",
-                            needs_channels(scene_)
-                                ? "    std::size_t channel_count;\n    const float* const* channels;  "
-                                  "// further numbers, an array each\n"
-                                : "");
+        values.emplace_back(
+            "CHANNELS", needs_channels(scene_)
+                            ? std::string("    std::size_t channel_count;\n    const float* const* "
+                                          "channels;  // further numbers, an array each\n") +
+                                  (has_opacity_of_channels(scene_)
+                                       ? "    std::size_t opacity_channel;    // the first of two that the "
+                                         "opacity reads\n"
+                                       : "")
+                            : "");
         write(files, "meshes.h", filled(candela_opengl_meshes, views_of(values)));
         write(files, "CMakeLists.txt", candela_opengl_cmake);
         write(files, "README.md", filled(candela_opengl_readme, views_of(values)));
@@ -330,7 +334,9 @@ class OpenGlWriter {
         const char* const dpdv =
             optional("dpdv", needs_derivatives ? interleaved(mesh.dpdv, count) : std::vector<float>());
         const char* const color = optional("color", interleaved(mesh.color, count));
-        const std::string channels = needs_channels(scene_) ? add_channels(mesh, body) : "";
+        std::string channels = needs_channels(scene_) ? add_channels(mesh, body) : "";
+        if (has_opacity_of_channels(scene_))
+            channels += fmt::format(", {}", opacity_channel(scene_.objects[index]).value_or(0));
         arrays_ += fmt::format(
             "\n// {}\ninline MeshArrays object_{}() {{\n{}    static const float* const normals[] = {{{}}};\n"
             "    static const std::size_t normals_of[] = {{{}}};\n    return {{{}, {}, corners, position, "

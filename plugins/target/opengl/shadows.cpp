@@ -11,6 +11,7 @@
 #include "candela/target/arrays.h"
 #include "candela/target/literals.h"
 #include "candela/target/shadow_tree.h"
+#include "candela/target/textures.h"
 
 CANDELA_EMBED(candela_opengl_shadows, CANDELA_SOURCE_DIR "/templates/shadows.cpp");
 CANDELA_EMBED(candela_opengl_shadow_opacity, CANDELA_SOURCE_DIR "/templates/shadow_opacity.cpp");
@@ -52,23 +53,71 @@ constexpr const char* k_put_opacity =
     "            std::memcpy(&texels[at + 1][3], &opacity, sizeof(opacity));\n";
 
 constexpr const char* k_add_opacity =
-    "    for (const ShadowOpacity& one : k_shadow_opacities) add_textured_opacity(tree, one, texels);\n"
+    "    for (const ShadowOpacity& one : k_shadow_opacities) add_opacity(tree, one, texels);\n"
     "    texels.resize((texels.size() + width - 1) / width * width);\n";
 
-std::string textured_opacities(const ExportedScene& scene) {
+constexpr const char* k_picture_members =
+    "    int texture;  // -1: the vertices give the opacity\n"
+    "    std::size_t texel_channel;\n"
+    "    int wrap_u, wrap_v;\n"
+    "    std::array<float, 6> placing;  // of texture coordinates: a row for u and one for v\n";
+constexpr const char* k_add_picture =
+    "    if (of.texture >= 0) {\n"
+    "        const TextureLevel picture = read_ppm(k_textures[static_cast<std::size_t>(of.texture)]);\n"
+    "        texels[use + 1] = {picture.width, picture.height, static_cast<GLint>(use + 2), of.wrap_u + 3 * "
+    "of.wrap_v};\n"
+    "        const std::size_t count = picture.texels.size() / 4;\n"
+    "        texels.resize(use + 2 + (count + 3) / 4);\n"
+    "        for (std::size_t i = 0; i < count; ++i) texels[use + 2 + i / 4][i % 4] = picture.texels[4 * i + "
+    "of.texel_channel];\n"
+    "    }\n";
+constexpr const char* k_place =
+    "    if (of.texture >= 0) {\n"
+    "        const auto row = [&](const float* r) { return r[0] * numbers[0] + r[1] * numbers[1] + r[2]; };\n"
+    "        numbers = {row(&of.placing[0]), row(&of.placing[3])};\n"
+    "    }\n";
+constexpr const char* k_channels_member =
+    "    int channel;  // the first of the vertices' channels that it depends on; -1: on texture "
+    "coordinates\n";
+constexpr const char* k_read_channels =
+    "    const auto channel = [&](std::size_t c) { return c < mesh.channel_count ? mesh.channels[c][vertex] "
+    ": "
+    "0.0f; };\n"
+    "    const auto first = static_cast<std::size_t>(of.channel);\n"
+    "    if (of.channel >= 0) numbers = {channel(first), channel(first + 1)};\n";
+
+/// The opacities that a texture or the vertices give, among the shadows.
+std::string varying_opacities(const ExportedScene& scene) {
     if (!has_textured_shadows(scene)) return "";
+    const bool has_pictures = has_shadow_pictures(scene), has_channels = has_opacity_of_channels(scene);
     std::string text;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
-        if (!has_textured_shadow(scene, scene.objects[i])) continue;
-        const ExportedTexturedNumber& number = scene.objects[i].opacity_numbers.front();
-        std::vector<std::string> placing;
-        for (const float x : number.placing) placing.push_back(float_text(x));
-        text += fmt::format("    {{{}, {}, {}, {}, {}, {{{}}}, {}, {}}},\n", i, number.texture,
-                            number.texel_channel, static_cast<int>(number.wrap[0]),
-                            static_cast<int>(number.wrap[1]), fmt::join(placing, ", "),
-                            float_text(number.scale), float_text(number.offset));
+        const ExportedObject& object = scene.objects[i];
+        if (!has_textured_shadow(scene, object)) continue;
+        const ExportedTexturedNumber& number = object.opacity_numbers.front();
+        std::vector<std::string> members{fmt::format("{}", i), float_text(number.scale),
+                                         float_text(number.offset)};
+        if (has_channels) {
+            const auto channel = opacity_channel(object);
+            members.push_back(channel ? fmt::format("{}", *channel) : "-1");
+        }
+        if (has_pictures && is_of_vertices(number)) {
+            members.emplace_back("-1, 0, 0, 0, {}");
+        } else if (has_pictures) {
+            std::vector<std::string> placing;
+            for (const float x : number.placing) placing.push_back(float_text(x));
+            members.push_back(fmt::format("{}, {}, {}, {}, {{{}}}", number.texture, number.texel_channel,
+                                          static_cast<int>(number.wrap[0]), static_cast<int>(number.wrap[1]),
+                                          fmt::join(placing, ", ")));
+        }
+        text += fmt::format("    {{{}}},\n", fmt::join(members, ", "));
     }
-    return filled(candela_opengl_shadow_opacity, {{"OPACITIES", text}});
+    return filled(candela_opengl_shadow_opacity, {{"OPACITIES", text},
+                                                  {"CHANNEL_MEMBER", has_channels ? k_channels_member : ""},
+                                                  {"PICTURE_MEMBERS", has_pictures ? k_picture_members : ""},
+                                                  {"READ_CHANNELS", has_channels ? k_read_channels : ""},
+                                                  {"PLACE", has_pictures ? k_place : ""},
+                                                  {"ADD_PICTURE", has_pictures ? k_add_picture : ""}});
 }
 
 constexpr const char* k_struct = R"(
@@ -98,7 +147,7 @@ Values shadow_values(const ExportedScene& scene) {
         const bool passes = lets_light_through(scene);
         texture =
             filled(candela_opengl_shadows, {{"WIDTH", fmt::format("{}", k_shadow_tree_width)},
-                                            {"TEXTURED_OPACITY", textured_opacities(scene)},
+                                            {"TEXTURED_OPACITY", varying_opacities(scene)},
                                             {"ADD_OPACITY", has_textured_shadows(scene) ? k_add_opacity : ""},
                                             {"SHADOW_OPACITY", passes ? k_shadow_opacity : ""},
                                             {"PUT_OPACITY", passes ? k_put_opacity : ""}});

@@ -33,16 +33,19 @@ constexpr const char* k_put_edges =
     "                all[15].push_back(uv(v[1 + i / 2]) - uv(v[0]));\n"
     "            }\n";
 
+constexpr const char* k_edge_channel =
+    "            const std::size_t first = rate == Rate::fragment ? 0 : mesh.opacity_channel;\n";
 constexpr const char* k_put_channels =
-    "            for (std::size_t c = 0; c < 8 && mesh.channel_count > 0; ++c) {  // numbers of the "
+    "            for (std::size_t c = 0; c < 8 && mesh.channel_count > 0; ++c) {{  // numbers of the "
     "vertices\n"
-    "                const auto channel = [&](std::size_t number, std::size_t vertex) {\n"
+    "                const auto channel = [&](std::size_t number, std::size_t vertex) {{\n"
     "                    return number < mesh.channel_count ? mesh.channels[number][vertex] : 0.0f;\n"
-    "                };\n"
+    "                }};\n"
     "                all[13 + c / 4].push_back(rate == Rate::face ? (channel(c, v[0]) + channel(c, v[1]) + "
     "channel(c, v[2])) / 3 : channel(c, v[k]));\n"
-    "                if (c < 4) all[12].push_back(channel(c % 2, v[1 + c / 2]) - channel(c % 2, v[0]));\n"
-    "            }\n";
+    "                if (c < 4) all[12].push_back(channel({0}c % 2, v[1 + c / 2]) - channel({0}c % 2, "
+    "v[0]));\n"
+    "            }}\n";
 
 constexpr const char* k_load =
     "        glActiveTexture(GL_TEXTURE6);\n"
@@ -78,6 +81,12 @@ std::string declarations_of(const ExportedScene& scene) {
     return filled(candela_opengl_textures, {{"FILE", std::string(texture_file_source())}, {"FILES", files}});
 }
 
+std::string put_channels(const ExportedScene& scene) {
+    const bool has_edge_channel = has_opacity_of_channels(scene);
+    return (has_edge_channel ? k_edge_channel : "") +
+           fmt::format(fmt::runtime(k_put_channels), has_edge_channel ? "first + " : "");
+}
+
 /// The texts that objects' programs have after their models.
 std::string texts_of(const char* name, std::initializer_list<const std::vector<std::string>*> lists) {
     std::string all = fmt::format("const std::vector<std::string> {} = {{\n", name);
@@ -107,7 +116,7 @@ Values texture_values(const ExportedScene& scene, const GlslParts& glsl) {
         {"SKIP_ABSENT", if_textures("        if (all[i].empty()) continue;\n")},
         {"FIND_TEXTURES", if_pictures("        look_for_textures_at(argv[0]);\n")},
         {"LOAD_TEXTURES", if_pictures(k_load)},
-        {"PUT_CHANNELS", needs_channels(scene) ? k_put_channels : ""},
+        {"PUT_CHANNELS", needs_channels(scene) ? put_channels(scene) : ""},
         {"BIND_TEXTURE", scene.textures.empty() ? "" : fmt::format(k_bind, most_material_pictures(scene))},
         {"MATERIAL_OF",
          if_textures("        const int material = reflection == object.reflection ? object.material : "

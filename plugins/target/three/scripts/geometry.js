@@ -20,6 +20,7 @@ function kernelGeometry(object) {
     const geometry = new BufferGeometry(), arrays = new VertexArrays(object.mesh);
     const sources = arrays.sourcesOf({
         rate: object.rate, seesTriangle: object.sees_triangle, isTextured: isTextured(object), hasOpacityMap: object.opacity_map !== null,
+        opacityChannel: object.opacity_channel,
     }, 0);
     for (const [name, source] of Object.entries(sources)) {
         const size = sizeOf(name);

@@ -108,7 +108,7 @@ export function appearanceOf(settings) {
         const material = reflection === object.reflection ? object.material : object.common_material;
         return {
             shading, reflection, rate: shadingModel.rate, seesTriangle: shadingModel.sees_triangle, closed: object.closed,
-            material, normalMap: object.normal_map, opacityMap: object.opacity_map,
+            material, normalMap: object.normal_map, opacityMap: object.opacity_map, opacityChannel: object.opacity_channel,
             opacity: opacityOf(settings, i, object),
             isTextured: [material, object.normal_map, object.opacity_map].some((text) => text !== null),
             uniforms: [

@@ -51,11 +51,11 @@ export class Mesh {
     }
 
     /** `rate`: how often the shading model evaluates light, per "face", "vertex" or "fragment". */
-    draw({ rate, shading, seesTriangle, isTextured, opacityMap }) {
+    draw({ rate, shading, seesTriangle, isTextured, opacityMap, opacityChannel }) {
         const { gl } = this;
         const normalSet = this.mesh.normals_of[shading], hasOpacityMap = opacityMap !== null;
-        const sources = this.arrays.sourcesOf({ rate, seesTriangle, isTextured, hasOpacityMap }, normalSet);
-        gl.bindVertexArray(this.vertexArray(sources, `${rate} ${normalSet} ${seesTriangle} ${isTextured} ${hasOpacityMap}`));
+        const sources = this.arrays.sourcesOf({ rate, seesTriangle, isTextured, hasOpacityMap, opacityChannel }, normalSet);
+        gl.bindVertexArray(this.vertexArray(sources, `${rate} ${normalSet} ${seesTriangle} ${isTextured} ${hasOpacityMap} ${opacityChannel}`));
         // Constant attributes are state of the context, not of the vertex array.
         ATTRIBUTES.forEach((attribute, i) => {
             if (typeof sources[attribute] !== "string") gl.vertexAttrib3f(i, ...sources[attribute]);

@@ -23,7 +23,8 @@ export class Shadows extends DataTexture {
 
     /** Equal for scenes whose shadows are the same for a renderer. */
     static keyOf({ shadows, objects, textures, image }) {
-        const opacityOf = ({ mesh, opacity, opacity_cutoff, shadow_opacity: use }) => [opacity, opacity_cutoff, ...(use ? [use, textures[use.texture], mesh.uv] : [])];
+        const opacityOf = ({ mesh, opacity, opacity_cutoff, opacity_channel: channel, shadow_opacity: use }) =>
+            [opacity, opacity_cutoff, ...(use ? [use, channel, textures[use.picture?.texture], mesh.uv, mesh.channels] : [])];
         return JSON.stringify([shadows, image.color_management, objects.map((object) => [object.mesh.position, object.mesh.indices, object.is_solid, opacityOf(object)])]);
     }
 

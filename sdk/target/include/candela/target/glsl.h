@@ -24,7 +24,7 @@ namespace candela::target {
 /// In a scene with opacity, a fragment shader draws one layer of depth peeling: surfaces behind the depths in
 /// `depth_before`, unless `is_first_layer`, where the fourth number of `covered` is below 1. It writes
 /// intensity and 1, both times the opacity, which is `object_opacity`, with `object_opacity_cutoff`, or what
-/// the object's text of `opacities`, after those before, reads from a texture.
+/// the object's text of `opacities`, after those before, reads from a texture or the vertices.
 struct GlslParts {
     std::string prelude;
     std::string texture;  // empty unless an object of the scene has one
@@ -33,7 +33,7 @@ struct GlslParts {
     std::vector<std::string> materials;              // of objects; empty unless textures give numbers of it
     std::vector<std::string> normal_maps;            // of objects; empty unless a picture tilts its normals
     std::vector<std::string> common_materials;       // the part that any reflection model has
-    std::vector<std::string> opacities;              // of objects; empty unless a texture gives their opacity
+    std::vector<std::string> opacities;              // of objects; empty unless a texture or vertices give it
     std::string vertex, fragment;
     std::string screen, accumulate, encode;
 };
@@ -90,10 +90,10 @@ struct LightBlock {
 /// 1))` on: below a picture that is at least as wide as high, right of others. `material_texture_<i>` has the
 /// `width` and `height` of the picture, the number of `levels`, how it continues (`wrap_u`, `wrap_v`: an
 /// ExportedWrap each), and i as its `unit`.
-/// Where light is evaluated for each fragment, or the opacity has a texture, they also read the positions of
-/// the triangle's vertices, as above; at location 15 how the texture coordinates change from its first vertex
-/// to the second and to the third (u, v, u, v); and how the line of sight moves from pixel to pixel,
-/// `pixel_right` and `pixel_up`: vectors in metres, at a distance of 1 in perspective.
+/// Where light is evaluated for each fragment, or the opacity depends on a texture, they also read the
+/// positions of the triangle's vertices, as above; at location 15 how the texture coordinates change from its
+/// first vertex to the second and to the third (u, v, u, v); and how the line of sight moves from pixel to
+/// pixel, `pixel_right` and `pixel_up`: vectors in metres, at a distance of 1 in perspective.
 ///
 /// In a scene with shadows they read `shadow_tree` and `least_margin`, see ShadowTree; the `object_index`;
 /// `is_shadowed`, whether light is blocked on the object; the `picture_height` in pixels; `pixel_right` and

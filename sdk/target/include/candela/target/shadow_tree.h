@@ -19,12 +19,12 @@ namespace candela::target {
 /// vertices, the first of them with twice the object's number, plus 1 if the object is solid (ExportedMesh),
 /// and, in a scene with opacity, the second with the part of the light that it blocks, as bits of a float.
 ///
-/// If a texture gives that, it is -1, and the third vertex has the number of a texel, after the triangles,
-/// with the texture coordinates u and v of the first and the second corner, as the texture places them. The
-/// next texel has the third corner's and the number of a texel with the scale, the offset and the cutoff of
-/// the opacity. After that, a texel has the width and the height of the picture, the number of its first
-/// texel, and `wrap_u + 3 * wrap_v`. The picture follows, row by row: its channel, from 0 to 65535, of four
-/// places in a texel.
+/// If a texture or the vertices give that, it is -1, and the third vertex has the number of a texel, after
+/// the triangles, with two numbers of the first and the second corner: texture coordinates u and v, as the
+/// texture places them, or the vertices' number and 0. The next texel has the third corner's and the number
+/// of a texel with the scale, the offset and the cutoff of the opacity. After that, a texel has the width and
+/// the height of the picture, the number of its first texel, and `wrap_u + 3 * wrap_v`; four zeros if there
+/// is none. The picture follows, row by row: its channel, from 0 to 65535, of four places in a texel.
 struct ShadowTree {
     /// Two numbers per node. The first: the node at which a ray goes on that misses the box, or that has met
     /// the node's triangles; -1 if there is none. The second: of a node with children -1; its first child
@@ -45,9 +45,11 @@ constexpr int k_shadow_tree_width = 2048;
 /// Whether an object that casts shadows blocks only a part of the light.
 bool lets_light_through(const ExportedScene& scene);
 
-/// Whether a texture gives the opacity of such an object.
+/// Whether a texture, or the vertices, give the opacity of such an object.
 bool has_textured_shadows(const ExportedScene& scene);
 bool has_textured_shadow(const ExportedScene& scene, const ExportedObject& object);
+/// Whether a texture does.
+bool has_shadow_pictures(const ExportedScene& scene);
 
 /// The tree of the scene's objects that cast shadows.
 ShadowTree shadow_tree(const ExportedScene& scene);

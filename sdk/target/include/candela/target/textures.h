@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,8 +48,15 @@ bool has_emission(const ExportedScene& scene);
 bool has_occlusion(const ExportedScene& scene);
 /// Whether something may be seen through an object of the scene.
 bool has_opacity(const ExportedScene& scene);
-/// Whether a texture gives the opacity of one.
+/// Whether a texture, or the vertices, give the opacity of one.
 bool has_textured_opacity(const ExportedScene& scene);
+/// Whether it reads ExportedMesh::channels: it is one of them, or a texture on second texture coordinates.
+bool reads_channels(const ExportedTexturedNumber& number);
+/// The first of the two channels that an object's opacity depends on: 0 if it has a texture that is placed by
+/// the second texture coordinates, its only one if the vertices give it; otherwise none. Of a product, those
+/// of the first factor that has any.
+std::optional<std::size_t> opacity_channel(const ExportedObject& object);
+bool has_opacity_of_channels(const ExportedScene& scene);
 
 /// The numbers of an object that textures give: of its own material, its colour, emission and occlusion; not
 /// its opacity, which is found elsewhere.
