@@ -246,12 +246,18 @@ void TileShader::shade_fragments(const FragmentList& fragments) {
 
 void TileShader::show_geometry(const FragmentList& fragments) {
     const ProjectedMesh mesh = mesh_of(fragments);
-    const bool has_uv = term_ == Term::uv;
+    const bool is_opacity = term_ == Term::opacity;
+    const PointNeeds needs =
+        is_opacity ? k_opacity_needs
+                   : PointNeeds{.vertex_normal = false, .color = false, .uv = term_ == Term::uv};
+    const Vec3Span values = batch_.span();
     FragmentBatches batches(fragments);
     for (FragmentBatch batch = batches.next(); !batch.runs.empty(); batch = batches.next()) {
-        gather_fragments(mesh, batch, {.vertex_normal = false, .color = false, .uv = has_uv}, points_);
+        gather_fragments(mesh, batch, needs, points_);
+        if (is_opacity) find_opacity(scene_->objects[fragments.object].surface, points_, values.x);
         for (std::size_t i = 0; i < batch.triangles.size(); ++i)
-            batch_.span().set(i, geometry_at(i, fragments.object, batch.triangles[i]));
+            values.set(i, is_opacity ? Vec3{values.x[i], values.x[i], values.x[i]}
+                                     : geometry_at(i, fragments.object, batch.triangles[i]));
         accumulate(batch.runs, std::as_const(batch_).span());
     }
 }

@@ -57,6 +57,7 @@ constexpr KnownTerm k_terms[] = {
     {"depth", Term::depth, false, {"Z"}, ""},
     {"barycentric", Term::barycentric, false, k_vector, "barycentric"},
     {"uv", Term::uv, false, {"U", "V"}, "uv"},
+    {"opacity", Term::opacity, false, {"opacity"}, ""},
     {"facing", Term::facing, false, {"facing"}, ""},
     {"object", Term::object, false, {"object"}, ""},
     {"triangle", Term::triangle, false, {"triangle"}, ""},

@@ -189,6 +189,7 @@ TEST_CASE("terms of a square seen head on match values computed by hand") {
     CHECK(at("P.Y") == Approx(y));
     CHECK(at("P.Z") == Approx(0.5));
     CHECK(at("barycentric.X") + at("barycentric.Y") + at("barycentric.Z") == Approx(1));
+    CHECK(at("opacity") == 1);
     CHECK(at("facing") == 1);
     CHECK(at("object") == 0);
     CHECK(at("triangle") >= 0);
@@ -204,6 +205,7 @@ TEST_CASE("terms of a square seen head on match values computed by hand") {
     CHECK(beyond("diffuse.R") == 0);
     CHECK(beyond("color.R") == 0);
     CHECK(std::isinf(beyond("Z")));
+    CHECK(beyond("opacity") == 0);
     CHECK(beyond("facing") == 0);
     CHECK(beyond("object") == -1);
     CHECK(beyond("triangle") == -1);
@@ -304,9 +306,50 @@ TEST_CASE("what surfaces emit is a term of its own, which no light has, also whe
     CHECK(emitted == Approx(share * 3 * std::pow((102 / 255.0 + 0.055) / 1.055, 2.4)).epsilon(1e-5));
 }
 
+TEST_CASE("the term opacity is that of the nearest surface that is there, before anything is covered") {
+    const auto folder = scratch_directory();
+    const std::string behind =
+        "[[object]]\ntype = \"cube\"\nsize = 0.4\nposition = [0, 0, -3]\n[object.material]\nopacity = 0.75\n";
+    const auto in_the_middle = [&](const std::string& opacity) {
+        return render_layers(folder, k_square + opacity + behind, "opacity").at("opacity", 30, 30);
+    };
+    // Of the nearer cube, the back is seen as well.
+    CHECK(in_the_middle("opacity = 0.25\n") == 0.25f);
+    CHECK(in_the_middle("opacity = 0.25\nopacity_cutoff = 0.125\n") == 1);
+    CHECK(in_the_middle("opacity = 0.25\nopacity_cutoff = 0.5\n") == 0.75f);
+    SECTION("as a texture says at the middle of a pixel") {
+        // The opacity rises along u by 30 of 255 from the middle of one texel to that of the next.
+        std::string ramp = "P6\n8 1\n255\n";
+        for (int i = 0; i < 8; ++i) ramp.append(3, static_cast<char>(30 * i));
+        write_file(folder / "ramp.ppm", ramp);
+        const Layers layers = render_layers(
+            folder, std::string(k_square) + "opacity = { texture = \"ramp.ppm\" }\n", "uv,opacity");
+        int compared = 0;
+        for (int x = 0; x < layers.width; ++x) {
+            const double along = 8 * double{layers.at("uv.U", x, 30)} - 0.5;
+            if (along < 1 || along > 7) continue;
+            CHECK(layers.at("opacity", x, 30) == Approx(30 * along / 255).epsilon(1e-3));
+            ++compared;
+        }
+        CHECK(compared > 20);
+    }
+    SECTION("and grey in files of bytes") {
+        write_file(folder / "scene.toml", std::string(k_square) + "opacity = 0.2\n");
+        succeeded(run_candela({"render", (folder / "scene.toml").string(), "-o", (folder / "a.ppm").string(),
+                               "--terms", "opacity", "--quiet"}));
+        const std::string ppm = read_file(folder / "a.opacity.ppm");
+        const auto level = [&](std::size_t x) {
+            return static_cast<int>(
+                static_cast<unsigned char>(ppm[ppm.size() - std::size_t{60 * 60 * 3} + 3 * (60 * 30 + x)]));
+        };
+        CHECK(level(30) == 51);
+        CHECK(level(1) == 0);
+    }
+}
+
 TEST_CASE("geometric terms are those at the centre of each pixel, whatever the number of samples") {
     const auto folder = scratch_directory();
-    const std::string terms = "depth,position,face_normal,barycentric,uv,facing,object,triangle";
+    const std::string terms = "depth,position,face_normal,barycentric,uv,opacity,facing,object,triangle";
     std::string one = k_many;
     one.replace(one.find("samples = 4"), 11, "samples = 1");
     const Layers several = render_layers(folder, k_many, terms), single = render_layers(folder, one, terms);

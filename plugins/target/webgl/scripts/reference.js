@@ -10,7 +10,7 @@ function termsOf(scene) {
     const terms = [["", "the picture"], ["ambient", "ambient, I_a"], ["diffuse", "diffuse, the sum of I_d"], ["specular", "specular, the sum of I_s"]];
     scene.lights.forEach(({ label }, i) => terms.push([`light.${i}`, `${displayName(label, "light", i)} alone`], [`n_dot_l.${i}`, `N·L of ${displayName(label, "light", i)}`]));
     return [...terms, ["surroundings", "surroundings"], ["background", "background"], ["normal", "N"], ["face_normal", "the faces' normals"], ["depth", "depth"],
-        ["position", "position"], ["barycentric", "barycentric coordinates"], ["uv", "texture coordinates"], ["facing", "front and back"], ["object", "objects"], ["triangle", "triangles"]];
+        ["position", "position"], ["barycentric", "barycentric coordinates"], ["uv", "texture coordinates"], ["opacity", "opacity"], ["facing", "front and back"], ["object", "objects"], ["triangle", "triangles"]];
 }
 
 /** How two pictures of RGBA bytes differ: the differences' statistics, and a picture of them from black to white. */
