@@ -8,6 +8,7 @@
 #include <span>
 
 #include "candela/color.h"
+#include "candela/target/textures.h"
 
 namespace candela::target {
 
@@ -36,10 +37,14 @@ float written(float intensity, ColorEncoding encoding) {
     return 255 * (encoding == ColorEncoding::srgb ? linear_to_srgb(intensity) : intensity);
 }
 
-/// Reports that the picture of a key of the material becomes its mean.
-void approximate_by_mean(const ExportedObject& object, const char* key, FileSink& files) {
+/// Reports that what gives a key of the material becomes its mean.
+void approximate_by_mean(const ExportedObject& object, const char* key, FileSink& files,
+                         bool is_vertices = false) {
     files.approximate(
-        fmt::format("the texture of '{}' of object {} becomes its mean", key, object.label).c_str());
+        (is_vertices ? fmt::format("the numbers of vertices that give '{}' of object {} become their mean",
+                                   key, object.label)
+                     : fmt::format("the texture of '{}' of object {} becomes its mean", key, object.label))
+            .c_str());
 }
 
 }  // namespace
@@ -50,18 +55,29 @@ void approximate_by_mean(const ExportedScene& scene, const ExportedObject& objec
                         files);
 }
 
-void MeanMaterials::take_common(ExportedObject& object, FileSink& files) const {
+float MeanMaterials::mean(const ExportedTexturedNumber& number, std::size_t object) const {
+    if (!is_of_vertices(number)) return mean_of(scene_, number);
+    const ExportedMesh mesh = scene_.geometry->in_world_space(object);
+    double sum = 0;
+    for (const float given : mesh.channels[number.vertex_channel])
+        sum +=
+            double{std::min(std::max(number.offset + number.scale * given, number.minimum), number.maximum)};
+    return static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(mesh.vertex_count, 1)));
+}
+
+void MeanMaterials::take_common(ExportedObject& object, std::size_t index, FileSink& files) const {
     if (!object.emission_numbers.empty()) {
-        approximate_by_mean(object, "emission", files);
+        approximate_by_mean(object, "emission", files, is_of_vertices(object.emission_numbers.front()));
         const auto channel = [&](std::size_t c) {
-            return written(mean_of(scene_, object.emission_numbers[c]), scene_.image.color_management);
+            return written(mean(object.emission_numbers[c], index), scene_.image.color_management);
         };
         object.emission = {channel(0), channel(1), channel(2)};
         object.emission_numbers = {};
     }
     if (!object.occlusion_numbers.empty()) {
-        approximate_by_mean(object, "occlusion", files);
-        object.occlusion = mean_of(scene_, object.occlusion_numbers.front());
+        const ExportedTexturedNumber& number = object.occlusion_numbers.front();
+        approximate_by_mean(object, "occlusion", files, is_of_vertices(number));
+        object.occlusion = mean(number, index);
         object.occlusion_numbers = {};
     }
 }
@@ -70,13 +86,20 @@ MeanMaterials::MeanMaterials(const ExportedScene& scene, FileSink& files)
     : scene_(scene), objects_(scene.objects.begin(), scene.objects.end()) {
     materials_.reserve(objects_.size());
     values_.reserve(objects_.size());
-    for (ExportedObject& object : objects_) {
-        take_common(object, files);
+    for (std::size_t i = 0; i < objects_.size(); ++i) {
+        ExportedObject& object = objects_[i];
+        take_common(object, i, files);
         if (object.textured_numbers.empty()) continue;
-        for (const ExportedTexturedNumber& number : object.textured_numbers)
-            approximate_by_mean(scene, object, number.parameter, files);
         auto& materials = materials_.emplace_back(object.materials.begin(), object.materials.end());
-        materials[object.reflection].runtime = values_.emplace_back(mean_values(scene, object));
+        const std::span<const ParamValue> own = materials[object.reflection].runtime;
+        std::vector<ParamValue>& values = values_.emplace_back(own.begin(), own.end());
+        for (const ExportedTexturedNumber& number : object.textured_numbers) {
+            approximate_by_mean(
+                object, scene.reflections[object.reflection].plugin->parameters[number.parameter].name, files,
+                is_of_vertices(number));
+            values[number.parameter].number[number.channel] = mean(number, i);
+        }
+        materials[object.reflection].runtime = values;
         object.materials = materials;
         object.textured_numbers = {};
     }

@@ -120,7 +120,7 @@ kd = 0.6
 ks = 0.25
 """
 
-# What pictures give, next to the numbers that objects have whatever their reflection model. The ball hides the slab's far half.
+# Values that pictures give, next to the numbers that objects have whatever their reflection model. The ball hides the slab's far half.
 TEXTURED = """
 version = 1
 [observer]

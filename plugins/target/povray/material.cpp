@@ -13,6 +13,7 @@
 #include "candela/target/textures.h"
 #include "pigment.h"
 #include "text.h"
+#include "vertex_values.h"
 
 namespace candela::povray_target {
 
@@ -125,7 +126,7 @@ Surface surface_of(const ExportedScene& scene, const ExportedObject& object, Vec
     }
     const Rgb emission = scene.image.exposure * target::emission_of(object, scene.image.color_management);
     if (emission != Rgb{}) {
-        if (!object.color_numbers.empty())
+        if (are_of_pictures(object.color_numbers))
             throw std::runtime_error(fmt::format(
                 "object {} emits light and has a texture of its colour, by which POV-Ray multiplies what a "
                 "surface emits; remove one of them",

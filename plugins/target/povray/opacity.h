@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,21 +18,27 @@ class Cover {
     /// Writes the pictures that give the object's opacity to files.
     Cover(const ExportedScene& scene, std::size_t object, FileSink& files);
 
-    bool is_opaque() const { return factors_.empty(); }
+    bool is_opaque() const { return factors_.empty() && !is_of_vertices_; }
     bool has_texture() const { return has_texture_; }
 
     /// The material with this cover. Its textures, which may have layers, are declared under names that begin
-    /// with `name`: maps take no layers otherwise.
-    Material over(const Material& material, const std::string& name) const;
+    /// with `name`: maps take no layers otherwise. `opacity`: that of a vertex, a further factor.
+    Material over(const Material& material, const std::string& name, std::optional<float> opacity = {}) const;
     /// A texture's statement with this cover; `texture`: what is in its braces.
-    std::string over(const std::string& texture) const;
+    std::string over(const std::string& texture, std::optional<float> opacity = {}) const;
 
   private:
     struct Factor {
         std::string pattern;
         float clear = 0, full = 0;  // of the map: places, or weights
+
+        std::string over(const std::string& texture) const;
     };
-    std::vector<Factor> factors_;  // none if it is opaque
+    static Factor average(float opacity, float cutoff);
+
+    std::vector<Factor> factors_;  // of all points
+    float cutoff_ = 0;
+    bool is_of_vertices_ = false;
     bool has_texture_ = false;
 };
 

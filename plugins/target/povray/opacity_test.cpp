@@ -1,7 +1,10 @@
 // Opacity in POV-Ray scenes, drawn by POV-Ray.
 #include <array>
 #include <catch2/catch_test_macros.hpp>
+#include <cmath>
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include "support/command.h"
 #include "support/expect.h"
@@ -12,6 +15,13 @@ namespace {
 
 /// One texel, of 51, 102 and 255.
 const std::string k_dot = std::string("P6\n1 1\n255\n\x33\x66\xff", 14);
+
+/// A square that covers the middle of a picture twice as wide as high.
+constexpr const char* k_ply =
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "property float wear\nproperty float s\nproperty float t\nelement face 2\nproperty list uchar int "
+    "vertex_indices\nend_header\n"
+    "-1 -1 0 0 0 0\n1 -1 0 1 1 0\n1 1 0 1 1 1\n-1 1 0 0 0 1\n3 0 1 2\n3 0 2 3\n";
 
 /// The middle pixel of a red ball before a blue wall, in levels of red and of blue.
 std::array<int, 2> through_a_ball(const Folder& folder, const std::string& material) {
@@ -49,6 +59,71 @@ TEST_CASE("target/povray: both sides of a see-through ball cover their part of w
         CHECK(through_a_ball(folder, texture + "0.15") == std::array{255, 0});
         CHECK(through_a_ball(folder, texture + "0.25") == std::array{0, 255});
     }
+}
+
+TEST_CASE("target/povray: vertices' opacities and colours are interpolated exactly") {
+    const Folder folder({{"square.ply", k_ply}, {"dot.ppm", k_dot}});
+    const auto levels = [&](const std::string& material, const std::string& object = {}) {
+        folder.write(
+            "scene.toml",
+            "version = 1\nimage = { width = 16, height = 8, color_management = \"none\", background = [0, "
+            "0, 255] }\nobserver = { position = [0, 0, 4], look_at = [0, 0, 0], projection = "
+            "\"orthographic\", height = 2 }\nshading = { model = \"phong\" }\nreflection = { model = "
+            "\"unlit\" }\n[[light]]\ntype = \"ambient\"\n[[object]]\ntype = \"mesh\"\nfile = "
+            "\"square.ply\"\n" +
+                (object.empty() ? "color = [255, 0, 0]\n" : object) + "[object.material]\n" + material +
+                "\n");
+        succeeded(folder.run("generate scene.toml --target povray --approximate -o made"));
+        CommandSetup setup{.directory = folder / "made"};
+        succeeded(run_program({"povray", "scene.ini", "+FP", "+Opicture.ppm"}, setup));
+        std::vector<std::array<int, 3>> row;
+        const Ppm picture = read_ppm(folder / "made/picture.ppm");
+        for (int x = 0; x < picture.width; ++x) row.push_back(picture.at(x, 2));
+        return row;
+    };
+    const auto level = [](double intensity) { return static_cast<int>(std::lround(255 * intensity)); };
+    const auto matches = [&](const std::vector<std::array<int, 3>>& row, const auto& expected) {
+        for (std::size_t x = 4; x < 12; ++x) {
+            const std::array<double, 3> wanted = expected((static_cast<double>(x) - 3.5) / 8);
+            for (std::size_t c = 0; c < 3; ++c) {
+                INFO("column " << x << ", channel " << c);
+                CHECK(std::abs(row[x][c] - level(wanted[c])) <= 1);
+            }
+        }
+    };
+    // The square covers the middle eight columns; its wear grows from left to right.
+    matches(levels("opacity = { attribute = \"wear\" }"), [](double s) { return std::array{s, 0.0, 1 - s}; });
+    matches(
+        levels("opacity = [{ attribute = \"wear\", scale = 0.5 }, { texture = \"dot.ppm\", channel = \"g\" "
+               "}]"),
+        [](double s) { return std::array{0.2 * s, 0.0, 1 - 0.2 * s}; });
+    matches(levels("",
+                   "color = { attribute = \"wear\", channel = \"r\", scale = [1, 0.5, 0], offset = [0, 0.5, "
+                   "0.25] }\n"),
+            [](double s) { return std::array{s, 0.5 + 0.5 * s, 0.25}; });
+}
+
+TEST_CASE(
+    "target/povray: light through vertices' opacities, and the colours of a lit mesh, match Candela's") {
+    const Folder folder({{"square.ply", k_ply}});
+    folder.write(
+        "scene.toml",
+        "version = 1\nobserver = { position = [0, 1.5, 5], look_at = [0, 0, 0] }\nimage = { width = 96, "
+        "height = 64 "
+        "}\nshading = { model = \"phong\" }\nreflection = { model = \"phong\" }\nconstraints = { overlap = "
+        "\"allow\" }\nshadows = { enabled = true }\n[[light]]\ntype = \"point\"\nposition = [-2, 4, 3]\n"
+        "intensity = 20\n[[light]]\ntype = \"ambient\"\nintensity = 0.5\n"
+        "[[object]]\ntype = \"mesh\"\nfile = \"square.ply\"\nscale = 0.8\nposition = [-1, 0, 0]\nmaterial = "
+        "{ "
+        "opacity = { attribute = \"wear\" } }\n"
+        "[[object]]\ntype = \"mesh\"\nfile = \"square.ply\"\nscale = 0.8\nposition = [1, 0, 0]\nrotation = "
+        "[0, 20, "
+        "0]\ncolor = { attribute = \"wear\", channel = \"r\", scale = [0.8, -0.5, 0], offset = [0, 0.6, 0.3] "
+        "}\n"
+        "[[object]]\ntype = \"cube\"\nsize = 4\nposition = [0, -3, -1]\nreflection = \"lambert\"\n");
+    const CommandResult result = folder.run("verify scene.toml --target povray --approximate --tolerance 3");
+    INFO(result.out << result.err);
+    CHECK(result.exit_code == 0);
 }
 
 TEST_CASE("target/povray: highlights and shadows of see-through surfaces match Candela's") {

@@ -11,6 +11,7 @@
 #include "candela/target/files.h"
 #include "candela/target/textures.h"
 #include "text.h"
+#include "vertex_values.h"
 
 namespace candela::povray_target {
 
@@ -80,7 +81,7 @@ Pigment pigment_of(const ExportedScene& scene, std::size_t object, Vec3 color, c
                    FileSink& files) {
     const ExportedObject& of = scene.objects[object];
     const float factor = std::max({color.x, color.y, color.z});
-    if (of.color_numbers.empty() || factor <= 0) return {rgb_text(color), 1};
+    if (!are_of_pictures(of.color_numbers) || factor <= 0) return {rgb_text(color), 1};
     const ExportedTexturedNumber& placed = of.color_numbers.front();
     approximate_lookups(placed, files);
     const std::string name = fmt::format("texture_{}{}.ppm", object, suffix);

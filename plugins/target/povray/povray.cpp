@@ -97,6 +97,7 @@ class PovRayTarget final : public Target {
                 .vertex_colors = true,
                 .textures = true,
                 .textured_numbers = true,
+                .vertex_channels = true,
                 .normal_maps = true,
                 .emission = true,
                 .occlusion = true,

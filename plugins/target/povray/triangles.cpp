@@ -50,13 +50,14 @@ bool is_on_outline(const Triangles& t, std::size_t first, bool is_front, const E
 
 }  // namespace
 
-Triangles triangles_of(const ExportedMesh& mesh, ConstVec3Span normal, bool is_textured) {
+Triangles triangles_of(const ExportedMesh& mesh, ConstVec3Span normal, bool is_textured,
+                       VertexValues values) {
     Triangles result;
+    result.values = std::move(values);
     for (std::size_t v = 0; v < mesh.vertex_count; ++v) {
         result.positions.push_back(mesh.position[v]);
         if (normal) result.normals.push_back(normal[v]);
         if (is_textured) result.uv.push_back({mesh.uv.x[v], mesh.uv.y[v]});
-        if (mesh.color && !is_textured) result.colors.push_back(mesh.color[v]);
     }
     result.indices.assign(mesh.indices.begin(), mesh.indices.end());
     return result;
@@ -92,7 +93,8 @@ Triangles split_off_outline(Triangles& t, const ExportedObserver& observer) {
             outline.positions.push_back(t.positions[vertex]);
             outline.normals.push_back(is_front ? t.normals[vertex] : -t.normals[vertex]);
             if (!t.uv.empty()) outline.uv.push_back(t.uv[vertex]);
-            if (!t.colors.empty()) outline.colors.push_back(t.colors[vertex]);
+            if (!t.values.colors.empty()) outline.values.colors.push_back(t.values.colors[vertex]);
+            if (!t.values.opacities.empty()) outline.values.opacities.push_back(t.values.opacities[vertex]);
         }
     }
     t.indices = std::move(others);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "candela/target.h"
+#include "vertex_values.h"
 
 namespace candela::povray_target {
 
@@ -14,13 +15,14 @@ struct Triangles {
     std::vector<Vec3> positions;
     std::vector<Vec3> normals;             // empty: those of the faces
     std::vector<std::array<float, 2>> uv;  // empty if no texture is visible
-    std::vector<Vec3> colors;              // empty if the mesh has none
+    VertexValues values;
     std::vector<std::uint32_t> indices;
     std::vector<std::uint32_t> normal_indices;  // empty: the same
 };
 
 /// `normal`: of the vertices; null: those of the faces.
-Triangles triangles_of(const ExportedMesh& mesh, ConstVec3Span normal, bool is_textured);
+Triangles triangles_of(const ExportedMesh& mesh, ConstVec3Span normal, bool is_textured,
+                       VertexValues values = {});
 
 /// POV-Ray draws a triangle with equal normals flat. If they are not the face's, one of them is turned by an
 /// invisibly small angle.

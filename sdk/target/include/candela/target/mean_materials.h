@@ -1,6 +1,7 @@
-// Materials with textures, for renderers that have only numbers in their place.
+// Materials with textures or numbers of vertices, for renderers that have only numbers in their place.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "candela/target.h"
@@ -18,10 +19,11 @@ std::vector<ParamValue> mean_values(const ExportedScene& scene, const ExportedOb
 void approximate_by_mean(const ExportedScene& scene, const ExportedObject& object, std::size_t parameter,
                          FileSink& files);
 
-/// A scene whose materials have the means of their pictures.
+/// A scene whose materials have the means of their pictures and of their vertices; colours and opacities
+/// stay.
 class MeanMaterials {
   public:
-    /// Refers to `scene`. Reports each parameter that had a picture.
+    /// Refers to `scene`. Reports each parameter that becomes a mean.
     MeanMaterials(const ExportedScene& scene, FileSink& files);
     MeanMaterials(const MeanMaterials&) = delete;
     MeanMaterials& operator=(const MeanMaterials&) = delete;
@@ -30,7 +32,9 @@ class MeanMaterials {
 
   private:
     /// Of emission and occlusion.
-    void take_common(ExportedObject& object, FileSink& files) const;
+    void take_common(ExportedObject& object, std::size_t index, FileSink& files) const;
+    /// Of a number of an object, from its picture or its vertices.
+    float mean(const ExportedTexturedNumber& number, std::size_t object) const;
 
     ExportedScene scene_;
     std::vector<ExportedObject> objects_;
