@@ -1,6 +1,7 @@
 """verify_scenes.py CANDELA SCRATCH NUMBER [TARGET]: runs `candela verify` on one of the scenes of scenes.py.
 verify_scenes.py CANDELA SCRATCH textures-NUMBER [TARGET]: the same for texture_scenes.py.
 verify_scenes.py CANDELA SCRATCH shadows-NUMBER [TARGET]: the same for shadow_scenes.py.
+verify_scenes.py CANDELA SCRATCH opacity-NUMBER [TARGET]: the same for opacity_scenes.py.
 verify_scenes.py CANDELA SCRATCH NUMBER TARGET exact: only what a target expresses with its own models, to within 1/255.
 verify_scenes.py CANDELA SCRATCH NUMBER three own: only what three.js draws itself, without kernels.
 verify_scenes.py CANDELA SCRATCH pairs: checks that the scenes of scenes.py cover all pairs."""
@@ -12,6 +13,7 @@ import re
 import subprocess
 import sys
 
+import opacity_scenes
 import scenes
 import shadow_scenes
 import texture_scenes
@@ -45,6 +47,8 @@ def scene_of(catalogue, what, is_exact):
     if what.startswith("textures-"):
         number = int(what.removeprefix("textures-"))
         return texture_scenes.scene_text(catalogue.factors()["reflection"], number), texture_scenes.files()
+    if what.startswith("opacity-"):
+        return opacity_scenes.scene_text(int(what.removeprefix("opacity-"))), opacity_scenes.files()
     number = int(what)
     return scenes.scene_text(catalogue, scenes.scenes(catalogue)[number], number), {"icosahedron.obj": scenes.OBJ.encode()}
 
