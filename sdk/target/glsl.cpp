@@ -130,7 +130,8 @@ std::string reflection_text(const ExportedReflection& model, const ExportedScene
 }
 
 std::string shading_text(const ExportedShading& model, const ExportedScene& scene) {
-    constexpr const char* k_rates[] = {"#define INTENSITY_RATE flat\n", "#define INTENSITY_RATE\n",
+    constexpr const char* k_rates[] = {"#define INTENSITY_RATE flat\n",
+                                       "#define INTENSITY_RATE\n#define LIT_AT_VERTEX\n",
                                        "#define LIT_AT_FRAGMENT\n"};
     const char* const triangle =
         model.needs.triangle ? "#define NEEDS_TRIANGLE\nTriangle seen_triangle;\n" : "";
@@ -192,6 +193,12 @@ OpacityTexts opacity_texts(const ExportedScene& scene) {
                 if_channels("    set_opacity_channels(seen_channels);\n") +
                 "#endif\n#ifdef TEXTURED_OPACITY\n    opacity = textured_opacity();\n#endif\n"};
 }
+constexpr const char* k_seen_side =
+    "    seen_side = facing * point.face_normal;\n    seen_facing = facing;\n"
+    "#ifdef LIT_AT_VERTEX\n"
+    "    vec3 to_middle = normalize(object_middle - place);\n"
+    "    seen_inward = 2.0 * (to_middle - seen_side * dot(seen_side, to_middle));\n"
+    "#endif\n";
 constexpr const char* k_shading_normal = "    s.normal = facing * shading_normal(point);\n";
 constexpr const char* k_mapped_normal =
     "#if defined(NORMAL_MAPPED) && defined(LIT_AT_FRAGMENT)\n"
@@ -259,13 +266,11 @@ GlslParts glsl_of(const ExportedScene& scene, const GlslDepth& depth, NormalScal
     const std::string cover =
         filled(candela_target_cover, {{"FIND_OPACITY", opacity.find}, {"NOT_BEHIND", depth.not_behind}});
     const std::string lit =
-        filled(candela_target_lit,
-               {{"PREPARATION", calls_of_preparations(scene)},
-                {"NORMAL", has_normal_maps(scene) ? k_mapped_normal : k_shading_normal},
-                {"COLOR", has_color_textures(scene) ? "own_color" : "object_color"},
-                {"EMISSION", has_emission(scene) ? " + own_emission" : ""},
-                {"SEEN_SIDE",
-                 if_shadows("    seen_side = facing * point.face_normal;\n    seen_facing = facing;\n")}});
+        filled(candela_target_lit, {{"PREPARATION", calls_of_preparations(scene)},
+                                    {"NORMAL", has_normal_maps(scene) ? k_mapped_normal : k_shading_normal},
+                                    {"COLOR", has_color_textures(scene) ? "own_color" : "object_color"},
+                                    {"EMISSION", has_emission(scene) ? " + own_emission" : ""},
+                                    {"SEEN_SIDE", if_shadows(k_seen_side)}});
     parts.lights = common_material(scene) + lights_text(scene);
     for (const auto& model : scene.reflections)
         parts.reflections.push_back(

@@ -169,6 +169,17 @@ bool lets_light_through(const ExportedScene& scene) {
            });
 }
 
+Vec3 middle_of(const ExportedMesh& mesh) {
+    constexpr float k_far = std::numeric_limits<float>::max();
+    Vec3 low{k_far, k_far, k_far}, high{-k_far, -k_far, -k_far};
+    for (std::size_t i = 0; i < mesh.vertex_count; ++i) {
+        const Vec3 p = mesh.position[i];
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return 0.5f * (low + high);
+}
+
 bool has_textured_shadow(const ExportedScene& scene, const ExportedObject& object) {
     return scene.has_shadows && object.casts_shadows && !object.opacity_numbers.empty();
 }

@@ -11,6 +11,7 @@
 #include "candela/target/arrays.h"
 #include "candela/target/kernels.h"
 #include "candela/target/literals.h"
+#include "candela/target/shadow_tree.h"
 #include "candela/target/textures.h"
 #include "shadows.h"
 
@@ -142,6 +143,10 @@ void CppObjects::add_object(std::size_t index) {
         if (!object.casts_shadows) text += "        o.casts_shadows = false;\n";
         if (!object.receives_shadows) text += "        o.receives_shadows = false;\n";
         if (!is_solid) text += "        o.is_solid = false;\n";
+        if (lights_vertices(scene_, object)) {
+            const Vec3 middle = target::middle_of(scene_.geometry->in_world_space(index));
+            text += fmt::format("        o.middle = vec3({});\n", list(middle.x, middle.y, middle.z));
+        }
     }
     statements_ += text + "        all.push_back(o);\n    }\n";
 }

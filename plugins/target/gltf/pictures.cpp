@@ -29,9 +29,7 @@ const char* media_type(std::string_view content) {
 
 bool is_black_or_white(const ExportedTexture& texture) {
     const std::span<const std::uint16_t> texels = texture.levels.front().texels;
-    for (std::size_t i = 0; i < texels.size(); ++i)
-        if (i % 4 != 3 && texels[i] != 0 && texels[i] != 65535) return false;
-    return true;
+    return std::ranges::all_of(texels, [](std::uint16_t x) { return x == 0 || x == 65535; });
 }
 
 /// The most significant byte first.

@@ -124,7 +124,7 @@ float texel_at(const ExportedTextureLevel& level, std::size_t channel, double u,
     const auto [y, below] = side(v, level.height);
     const auto texel = [&](int column, int row) {
         const int at = std::min(row, level.height - 1) * level.width + std::min(column, level.width - 1);
-        return static_cast<double>(level.texels[4 * static_cast<std::size_t>(at) + channel]);
+        return static_cast<double>(level.texels[3 * static_cast<std::size_t>(at) + channel]);
     };
     const double sum = (1 - below) * ((1 - right) * texel(x, y) + right * texel(x + 1, y)) +
                        below * ((1 - right) * texel(x, y + 1) + right * texel(x + 1, y + 1));
@@ -133,7 +133,7 @@ float texel_at(const ExportedTextureLevel& level, std::size_t channel, double u,
 
 /// Whether red and green are the tangent's direction.
 bool is_along_tangent(const ExportedTextureLevel& level) {
-    for (std::size_t i = 0; i < level.texels.size(); i += 4) {
+    for (std::size_t i = 0; i < level.texels.size(); i += 3) {
         const int red = level.texels[i] / 257, green = level.texels[i + 1] / 257;
         if (red != 255 || green < 127 || green > 128) return false;
     }
@@ -316,8 +316,8 @@ void TextureMaps::add_normals(const ExportedObject& object, Json& material) {
         const ExportedTextureLevel& level = scene_.textures[map.texture].levels.front();
         std::vector<std::uint8_t> bytes;
         bytes.reserve(level.texels.size());
-        for (std::size_t i = 0; i < level.texels.size(); ++i)
-            if (i % 4 != 3) bytes.push_back(static_cast<std::uint8_t>((level.texels[i] + 128) / 257));
+        for (const int channel : level.texels)
+            bytes.push_back(static_cast<std::uint8_t>((channel + 128) / 257));
         image = pictures_.add(png_of(level.width, level.height, 3, bytes), "image/png");
     }
     material["normalTexture"] = info_of(*image, map);

@@ -301,18 +301,17 @@ class OpenGlWriter {
 
     std::string object_text(std::size_t index) {
         const ExportedObject& object = scene_.objects[index];
-        const auto [is_closed, is_solid] = add_arrays(index);
+        const ExportedMesh mesh = scene_.geometry->in_world_space(index);
+        add_arrays(index, mesh);
         return fmt::format("    {{\"{}\", {}, {}{}, {},\n     {},\n     {},\n     {}, object_{}(){}}},\n",
                            ascii_identifier(object.label), braces(decoded(object.color, encoding_)),
                            common_values(object), object.shading, object.reflection,
                            all_uniforms(scene_.reflections, object.materials),
-                           all_uniforms(scene_.shadings, object.shadings), is_closed, index,
-                           texture_members(scene_, index) + shadow_members(scene_, object, is_solid));
+                           all_uniforms(scene_.shadings, object.shadings), mesh.closed, index,
+                           texture_members(scene_, index) + shadow_members(scene_, object, mesh));
     }
 
-    /// Returns whether the object is closed, and whether it is solid.
-    std::pair<bool, bool> add_arrays(std::size_t index) {
-        const ExportedMesh mesh = scene_.geometry->in_world_space(index);
+    void add_arrays(std::size_t index, const ExportedMesh& mesh) {
         const std::size_t count = mesh.vertex_count;
         std::string body = number_array("unsigned", "corners", mesh.indices) +
                            number_array("float", "position", interleaved(mesh.position, count));
@@ -344,7 +343,6 @@ class OpenGlWriter {
             "{}, {}{}}};\n}}\n",
             ascii_identifier(scene_.objects[index].label), index, body, fmt::join(sets, ", "),
             fmt::join(mesh.normals_of, ", "), count, mesh.triangle_count(), uv, dpdu, dpdv, color, channels);
-        return {mesh.closed, mesh.is_solid};
     }
 
     /// Adds the numbers of the vertices to `body`; returns what the arrays' members are set to.

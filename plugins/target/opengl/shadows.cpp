@@ -24,7 +24,8 @@ namespace {
 
 constexpr const char* k_shadow_members =
     "    bool receives_shadows;\n"
-    "    bool is_solid;  // closed, with nothing inside: it blocks light only where the light enters it\n";
+    "    bool is_solid;  // closed, with nothing inside: it blocks light only where the light enters it\n"
+    "    vec3 middle;    // of the box around it\n";
 
 constexpr const char* k_set_object =
     "            set(program, {\"object_index\", Uniform::whole, {static_cast<float>(i), 0, 0}});\n"
@@ -32,6 +33,7 @@ constexpr const char* k_set_object =
     "choice.has_shadows ? 1.0f : 0.0f, 0, 0}});\n"
     "            set(program, {\"blocks_both_sides\", Uniform::whole, "
     "{object.is_solid ? 0.0f : 1.0f, 0, 0}});\n"
+    "            set(program, {\"object_middle\", Uniform::vector, object.middle});\n"
     "            set_sight(program, observer, view, width, height, sample);\n"
     "            set(program, {\"picture_height\", Uniform::whole, {static_cast<float>(height), 0, 0}});\n";
 
@@ -173,8 +175,12 @@ Values shadow_values(const ExportedScene& scene) {
         {"SHADOW_ARRAYS", std::move(arrays)}};
 }
 
-std::string shadow_members(const ExportedScene& scene, const ExportedObject& object, bool is_solid) {
-    return scene.has_shadows ? fmt::format(", {}, {}", object.receives_shadows, is_solid) : "";
+std::string shadow_members(const ExportedScene& scene, const ExportedObject& object,
+                           const ExportedMesh& mesh) {
+    if (!scene.has_shadows) return "";
+    const Vec3 middle = middle_of(mesh);
+    return fmt::format(", {}, {}, {{{}, {}, {}}}", object.receives_shadows, mesh.is_solid,
+                       float_text(middle.x), float_text(middle.y), float_text(middle.z));
 }
 
 }  // namespace candela::opengl_target

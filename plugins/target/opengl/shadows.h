@@ -12,6 +12,7 @@ namespace candela::opengl_target {
 target::Values shadow_values(const ExportedScene& scene);
 
 /// The end of an object's initializer: ", true, false". `is_solid`: as in ExportedMesh.
-std::string shadow_members(const ExportedScene& scene, const ExportedObject& object, bool is_solid);
+std::string shadow_members(const ExportedScene& scene, const ExportedObject& object,
+                           const ExportedMesh& mesh);
 
 }  // namespace candela::opengl_target

@@ -22,9 +22,9 @@ target::TexturePixels image_of(const ExportedTextureLevel& level,
                                std::span<const ExportedTexturedNumber> numbers, Vec3 color) {
     target::TexturePixels pixels{
         .width = level.width, .height = level.height, .is_encoded = false, .bytes = {}};
-    pixels.bytes.reserve(level.texels.size() / 4 * 6);
+    pixels.bytes.reserve(2 * level.texels.size());
     const float factors[] = {color.x, color.y, color.z};
-    for (std::size_t texel = 0; texel < level.texels.size(); texel += 4) {
+    for (std::size_t texel = 0; texel < level.texels.size(); texel += 3) {
         for (const ExportedTexturedNumber& n : numbers) {
             const float stored = static_cast<float>(level.texels[texel + n.texel_channel]) / 65535.0f;
             const float value = std::min(std::max(n.offset + n.scale * stored, n.minimum), n.maximum);

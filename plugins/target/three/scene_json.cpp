@@ -66,6 +66,7 @@ class Writer {
             boxes.push_back(box_of(mesh));
             is_closed_.push_back(mesh.closed);
             is_solid_.push_back(mesh.is_solid);
+            middles_.push_back(middle_of(mesh));
         }
         const auto lights = own_lights(scene_, boxes);
         Json objects = Json::array();
@@ -171,6 +172,7 @@ class Writer {
             json["uniforms"]["object_index"] = index;
             json["uniforms"]["is_shadowed"] = object.receives_shadows;
             json["uniforms"]["blocks_both_sides"] = !is_solid_[index];
+            json["uniforms"]["object_middle"] = vector_json(middles_[index]);
         }
         return json;
     }
@@ -235,6 +237,7 @@ class Writer {
     const ExportedScene& scene_;
     PageArrays& arrays_;
     std::vector<bool> is_closed_, is_solid_;
+    std::vector<Vec3> middles_;
 };
 
 }  // namespace

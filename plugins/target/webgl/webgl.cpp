@@ -246,6 +246,8 @@ Json object_json(const ExportedScene& scene, std::size_t index, PageArrays& arra
     if (scene.has_shadows) {
         json["receives_shadows"] = object.receives_shadows;
         json["is_solid"] = mesh.is_solid;
+        const Vec3 middle = middle_of(mesh);
+        json["middle"] = {middle.x, middle.y, middle.z};
     }
     return json;
 }

@@ -30,7 +30,7 @@ vec3 place_on_triangle() {
     vec3 within = place + max(0.0, least / (least - 1.0 / 3.0)) * to_middle;
     if (distance(within, place) < 4.0 * pixel) {  // not if the triangle seems to be a line
         place = within;
-        seen_inward = normalize(to_middle);
+        if (blocks_both_sides) seen_inward = 4.0 * normalize(to_middle);
     }
     return place - at_face_normal * dot(at_face_normal, place - at_corner);
 }

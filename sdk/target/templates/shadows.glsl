@@ -10,12 +10,13 @@ uniform float least_margin;
 uniform int object_index;
 uniform bool is_shadowed;        // whether light is blocked on this object
 uniform bool blocks_both_sides;  // whether this object is not solid
+uniform vec3 object_middle;      // of the box around it
 
 // Where light is evaluated.
 uvec2 seen_pixel = uvec2(0u);  // from the top left of the picture; (0, 0) at vertices and faces
 vec3 seen_side;                // the triangle's normal on the visible side; at a vertex the vertex's
 float seen_facing;             // -1 where an open surface is seen from behind
-vec3 seen_inward = vec3(0.0);  // along the triangle towards its middle; nothing at vertices and faces
+vec3 seen_inward = vec3(0.0);  // along the surface: how many margins further rays start
 // The place and the vertex normals, interpolated, change by this much from pixel to pixel; by nothing at vertices and faces.
 vec3 place_per_x = vec3(0.0);
 vec3 place_per_y = vec3(0.0);
@@ -110,8 +111,8 @@ float visible_part(Receiver r, vec3 to_light, float distance) {
     bool is_below = cosine < 0.0 || (dot(seen_side, to_light) < 0.0 && !is_hollow(to_light));
     // Above the surface and a little before the point, so that walls that meet in it are in the way; or below and after it.
     vec3 shift = (is_below ? -margin : margin) * (2.0 * seen_side - to_light);
-    // In the edge of a room, that is behind the adjacent wall; so rays also start further inside their triangle.
-    if (blocks_both_sides) shift += 4.0 * margin * seen_inward;
+    // In the edge of a room, that is behind the adjacent wall; so rays also start further inside their triangle, or their object.
+    shift += margin * seen_inward;
     return free_part(r.position + shift, to_light - shift / distance, reach, is_below);
 }
 

@@ -163,12 +163,16 @@ bool is_hollow(const ShadowPlace& at, vec3 to_light) {
     return at.is_back ? turn > 0 : turn < 0;
 }
 
-// Along the triangle towards its middle.
-vec3 inward(const ShadowPlace& at) {
+// Along the surface towards a place.
+vec3 along_surface(const ShadowPlace& at, vec3 place) {
+    const vec3 towards = normalize(place - at.position);
+    return towards - dot(at.face_normal, towards) * at.face_normal;
+}
+
+vec3 middle_of_triangle(const ShadowPlace& at) {
     const Mesh& m = at.object.mesh;
     const auto corner = [&](int k) { return m.position[static_cast<std::size_t>(m.corners[static_cast<std::size_t>(3 * at.triangle + k)])]; };
-    const vec3 to_middle = normalize((corner(0) + corner(1) + corner(2)) / 3.0f - at.position);
-    return to_middle - dot(at.face_normal, to_middle) * at.face_normal;
+    return (corner(0) + corner(1) + corner(2)) / 3.0f;
 }
 
 @PASSING@
@@ -184,7 +188,8 @@ float unblocked(const ShadowPlace& at, vec3 to_light, float distance) {
     // Above the surface and a little before the place, so that walls that meet in it are in the way; or below and after it.
     vec3 shift = (is_below ? -margin : margin) * (2.0f * at.face_normal - to_light);
     // In the edge of a room, that is behind the adjacent wall; so rays also start further inside their triangle.
-    if (at.triangle >= 0 && !at.object.is_solid) shift += 4.0f * margin * inward(at);
+    if (at.triangle >= 0 && !at.object.is_solid) shift += 4.0f * margin * along_surface(at, middle_of_triangle(at));
+@AT_VERTICES@
 @CROSSINGS@
     return at.tree.is_blocked({double3(at.position + shift), double3(to_light - shift / distance), static_cast<double>(length), &at.object, is_below, at.is_back@CROSSINGS_ARGUMENT@}) ? 0.0f : @IF_FREE@;
 }

@@ -115,6 +115,7 @@ export function appearanceOf(settings) {
                 ["object_index", { kind: "int", value: i }],
                 ["is_shadowed", { kind: "int", value: hasShadows && object.receives_shadows ? 1 : 0 }],
                 ["blocks_both_sides", { kind: "int", value: object.is_solid ? 0 : 1 }],
+                ["object_middle", { kind: "vec3", value: object.middle ?? [0, 0, 0] }],
                 ["object_color", toUniform(COLOR, object.is_color_textured ? object.color : settings.get(`object.${i}.color`), isSrgb)],
                 ...commonUniforms(settings, i, object),
                 ...materialUniforms(settings, i, reflection),

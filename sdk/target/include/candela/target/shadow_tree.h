@@ -51,6 +51,10 @@ bool has_textured_shadow(const ExportedScene& scene, const ExportedObject& objec
 /// Whether a texture does.
 bool has_shadow_pictures(const ExportedScene& scene);
 
+/// The middle of the box around a mesh in world space. Rays to lights from its vertices, where surfaces meet,
+/// start further towards it.
+Vec3 middle_of(const ExportedMesh& mesh);
+
 /// The tree of the scene's objects that cast shadows.
 ShadowTree shadow_tree(const ExportedScene& scene);
 
