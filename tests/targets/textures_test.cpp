@@ -34,7 +34,7 @@ std::uint16_t intensity_of(int byte) {
 /// A row of grey texels.
 TexturePixels pixels_of(const std::vector<std::uint16_t>& row, ColorEncoding encoding) {
     std::vector<std::uint16_t> texels;
-    for (const std::uint16_t value : row) texels.insert(texels.end(), {value, value, value, 0});
+    for (const std::uint16_t value : row) texels.insert(texels.end(), {value, value, value});
     const std::vector<candela::ExportedTextureLevel> levels = {
         {.width = static_cast<int>(row.size()), .height = 1, .texels = texels}};
     return candela::target::pixels_of({.file = "/pictures/row.png", .levels = levels}, encoding);
