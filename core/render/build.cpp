@@ -68,7 +68,7 @@ class SceneBuilder {
         built_.image = scene_.image;
         built_.shadow_pattern = scene_.shadows.pattern;
         if (draft.is_complete) make_models();
-        if (draft.is_complete) with_threads(threads, [&] { make_textures(); });
+        if (draft.is_complete) make_textures();
         if (draft.is_complete) make_environment();
         if (draft.is_complete) make_mirror_images();
         place_shapes();
@@ -170,7 +170,7 @@ class SceneBuilder {
         }
         for (std::size_t i = 0; i < scene_.objects.size(); ++i)
             textures.expect(scene_.objects[i], built_.objects[i].surface);
-        textures.read();
+        textures.read(threads_);
         for (std::size_t i = 0; i < scene_.objects.size(); ++i)
             textures.make(scene_.objects[i], built_.objects[i].surface);
     }

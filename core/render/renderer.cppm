@@ -6,6 +6,7 @@ module;
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 export module candela.render:renderer;

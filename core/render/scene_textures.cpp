@@ -95,27 +95,31 @@ SceneTextures::Picture SceneTextures::read(const Request& request) {
     }
 }
 
-void SceneTextures::read() {
+void SceneTextures::read_together(const std::vector<Request>& wanted,
+                                  std::vector<std::optional<Picture>>& pictures) {
+    std::atomic<bool> is_short = false;
+    const auto read_some = [&](std::size_t begin, std::size_t end) {
+        try {
+            for (std::size_t i = begin; i < end && !is_short; ++i) pictures[i] = read(wanted[i]);
+        } catch (const MemoryShortage&) {
+            is_short = true;
+        }
+    };
+    // One thread each: while waiting for others, it would begin with further pictures.
+    parallel_for(wanted.size(), 1, [&](std::size_t begin, std::size_t end) {
+        with_threads(1, [&] { read_some(begin, end); });
+    });
+}
+
+void SceneTextures::read(int threads) {
     const std::vector<Request> wanted = std::exchange(expected_, {});
+    if (wanted.empty()) return;
     std::vector<std::optional<Picture>> pictures(wanted.size());
-    if (wanted.size() > 1) {
-        std::atomic<bool> is_short = false;
-        const auto read_some = [&](std::size_t begin, std::size_t end) {
-            try {
-                for (std::size_t i = begin; i < end && !is_short; ++i) pictures[i] = read(wanted[i]);
-            } catch (const MemoryShortage&) {
-                is_short = true;
-            }
-        };
-        // One thread each: while waiting for others, it would begin with further pictures.
-        parallel_for(wanted.size(), 1, [&](std::size_t begin, std::size_t end) {
-            with_threads(1, [&] { read_some(begin, end); });
-        });
-    }
+    if (wanted.size() > 1) with_threads(threads, [&] { read_together(wanted, pictures); });
     // Alone, a picture may have enough memory. If not, one message about it is enough.
     for (std::size_t i = 0; i < wanted.size(); ++i) {
         try {
-            if (!pictures[i]) pictures[i] = read(wanted[i]);
+            if (!pictures[i]) with_threads(threads, [&] { pictures[i] = read(wanted[i]); });
             pictures_[wanted[i].key] = *std::move(pictures[i]);
         } catch (const MemoryShortage&) {
             pictures_[wanted[i].key].problem = std::current_exception();

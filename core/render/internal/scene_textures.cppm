@@ -4,6 +4,7 @@ module;
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,8 @@ class SceneTextures {
 
     /// Expects the pictures that the surface lacks.
     void expect(const Object& object, const SurfaceModels& surface);
-    /// Reads what is expected, with the threads that with_threads() allows.
-    void read();
+    /// Reads what is expected, with that many threads; 0: all.
+    void read(int threads);
     /// Gives the surface the textures that it lacks; their pictures have been read. Problems are reported at
     /// the place of the first texture that has them.
     void make(const Object& object, SurfaceModels& surface);
@@ -51,6 +52,9 @@ class SceneTextures {
     Request request_of(const NormalMap& map);
     Request request_of(const std::string& file, ColorEncoding decoding);
     void expect(Request request);
+    /// Leaves out those that memory was short for while others were read.
+    static void read_together(const std::vector<Request>& wanted,
+                              std::vector<std::optional<Picture>>& pictures);
     /// Throws MemoryShortage; other Errors are the picture's.
     static Picture read(const Request& request);
     /// Null if it could not be read, which has been reported for another texture. Throws why it could not.
