@@ -153,7 +153,7 @@ std::vector<ParameterTexture> ModelChooser::factors_in(std::span<const Node* con
             tables_.diagnostics().error(
                 node->place,
                 fmt::format("a factor of {} is {}, not a texture or an attribute", where, description(*node)),
-                "write { texture = \"...\" } or { attribute = \"...\" }, and a number as 'scale' of one");
+                R"(write { texture = "..." } or { attribute = "..." }, and a number as 'scale' of one)");
             continue;
         }
         if (auto texture = texture_in(*node->table(), parameter, where, node->place))

@@ -41,13 +41,12 @@ TexturePixels pixels_of(const ExportedTexture& texture, ColorEncoding encoding) 
     const std::vector<int> encoded = encoded_bytes(encoding);
     TexturePixels pixels{.width = level.width, .height = level.height, .is_encoded = true, .bytes = {}};
     const std::span<const std::uint16_t> texels = level.texels;
-    for (std::size_t i = 0; i < texels.size() && pixels.is_encoded; ++i)
-        pixels.is_encoded = encoded[texels[i]] != k_not_encoded;
+    const auto is_encoded = [&](std::uint16_t x) { return encoded[x] != k_not_encoded; };
+    pixels.is_encoded = std::ranges::all_of(texels, is_encoded);
     pixels.bytes.reserve(texels.size() * (pixels.is_encoded ? 1 : 2));
-    for (std::size_t i = 0; i < texels.size(); ++i) {
-        if (!pixels.is_encoded) pixels.bytes.push_back(static_cast<std::byte>(texels[i] >> 8));
-        pixels.bytes.push_back(
-            static_cast<std::byte>(pixels.is_encoded ? encoded[texels[i]] : texels[i] & 255));
+    for (const std::uint16_t texel : texels) {
+        if (!pixels.is_encoded) pixels.bytes.push_back(static_cast<std::byte>(texel >> 8));
+        pixels.bytes.push_back(static_cast<std::byte>(pixels.is_encoded ? encoded[texel] : texel & 255));
     }
     return pixels;
 }

@@ -38,8 +38,8 @@ class Background {
 
     Bytes everywhere() const { return shown({}); }
     Bytes at(std::size_t pixel) const {
-        return shown(camera_.view_through(static_cast<float>(pixel % width_) + 0.5f,
-                                          static_cast<float>(pixel / width_) + 0.5f));
+        const std::size_t column = pixel % width_, row = pixel / width_;
+        return shown(camera_.view_through(static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f));
     }
 
   private:
