@@ -15,10 +15,8 @@ namespace candela::target {
 float mean_of(const ExportedScene& scene, const ExportedTexturedNumber& number) {
     const std::span<const std::uint16_t> texels = scene.textures[number.texture].levels.front().texels;
     double sum = 0;
-    for (std::size_t i = number.texel_channel; i < texels.size(); i += 3) {
-        const float value = number.offset + number.scale * (static_cast<float>(texels[i]) / 65535.0f);
-        sum += double{std::min(std::max(value, number.minimum), number.maximum)};
-    }
+    for (std::size_t i = number.texel_channel; i < texels.size(); i += 3)
+        sum += double{value_of(number, static_cast<float>(texels[i]) / 65535.0f)};
     return static_cast<float>(sum / (static_cast<double>(texels.size()) / 3));
 }
 
@@ -59,9 +57,7 @@ float MeanMaterials::mean(const ExportedTexturedNumber& number, std::size_t obje
     if (!is_of_vertices(number)) return mean_of(scene_, number);
     const ExportedMesh mesh = scene_.geometry->in_world_space(object);
     double sum = 0;
-    for (const float given : mesh.channels[number.vertex_channel])
-        sum +=
-            double{std::min(std::max(number.offset + number.scale * given, number.minimum), number.maximum)};
+    for (const float given : mesh.channels[number.vertex_channel]) sum += double{value_of(number, given)};
     return static_cast<float>(sum / static_cast<double>(std::max<std::size_t>(mesh.vertex_count, 1)));
 }
 

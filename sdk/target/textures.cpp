@@ -157,6 +157,10 @@ std::vector<ExportedTexturedNumber> all_textured_numbers(const ExportedObject& o
     return all;
 }
 
+float value_of(const ExportedTexturedNumber& number, float given) {
+    return std::min(std::max(number.offset + number.scale * given, number.minimum), number.maximum);
+}
+
 bool is_of_vertices(const ExportedTexturedNumber& number) {
     return number.vertex_channel != ExportedTexturedNumber::k_none;
 }

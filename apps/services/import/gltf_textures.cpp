@@ -236,7 +236,7 @@ void Textures::read_all() {
         }
     }
     std::vector<std::optional<ReadPicture>> pictures(files.size());
-    candela::parallel_for(files.size(), 1, [&](std::size_t begin, std::size_t end) {
+    const auto read_some = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             try {
                 pictures[i] = read(std::move(files[i].second));
@@ -244,7 +244,15 @@ void Textures::read_all() {
                 continue;  // alone, it may have enough
             }
         }
-    });
+    };
+    if (files.size() == 1) {
+        read_some(0, 1);
+    } else {
+        // One thread each: while waiting for others, it would begin with further pictures.
+        candela::parallel_for(files.size(), 1, [&](std::size_t begin, std::size_t end) {
+            candela::with_threads(1, [&] { read_some(begin, end); });
+        });
+    }
     for (std::size_t i = 0; i < files.size(); ++i)
         if (pictures[i]) images_[files[i].first] = *std::move(pictures[i]);
 }

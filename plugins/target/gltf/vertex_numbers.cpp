@@ -55,9 +55,8 @@ std::vector<float> VertexNumbers::values_of(const ExportedTexturedNumber& number
     values.reserve(mesh_.vertex_count);
     bool is_clamped = false;
     for (const float given : mesh_.channels[number.vertex_channel]) {
-        const float value = number.offset + number.scale * given;
-        values.push_back(std::min(std::max(value, number.minimum), number.maximum));
-        is_clamped = is_clamped || values.back() != value;
+        values.push_back(target::value_of(number, given));
+        is_clamped = is_clamped || values.back() != number.offset + number.scale * given;
     }
     if (is_clamped && of != nullptr)
         files_.approximate(fmt::format("{} of object {} is brought into its range at vertices, not at points",

@@ -27,7 +27,7 @@ target::TexturePixels image_of(const ExportedTextureLevel& level,
     for (std::size_t texel = 0; texel < level.texels.size(); texel += 3) {
         for (const ExportedTexturedNumber& n : numbers) {
             const float stored = static_cast<float>(level.texels[texel + n.texel_channel]) / 65535.0f;
-            const float value = std::min(std::max(n.offset + n.scale * stored, n.minimum), n.maximum);
+            const float value = target::value_of(n, stored);
             const long whole = std::lround(65535.0f * factors[n.channel] * value);
             pixels.bytes.push_back(static_cast<std::byte>(whole >> 8));
             pixels.bytes.push_back(static_cast<std::byte>(whole & 255));

@@ -17,8 +17,7 @@ std::vector<float> values_of(const ExportedTexturedNumber& number, const Exporte
     std::vector<float> values;
     values.reserve(mesh.vertex_count);
     for (const float given : mesh.channels[number.vertex_channel])
-        values.push_back(
-            std::min(std::max(number.offset + number.scale * given, number.minimum), number.maximum));
+        values.push_back(target::value_of(number, given));
     return values;
 }
 

@@ -63,6 +63,8 @@ bool has_opacity_of_channels(const ExportedScene& scene);
 std::vector<ExportedTexturedNumber> all_textured_numbers(const ExportedObject& object);
 /// Whether a number comes from the mesh's vertices instead of a picture.
 bool is_of_vertices(const ExportedTexturedNumber& number);
+/// The number where its texel, 1 for white, or its channel of the vertices is `given`: within its range.
+float value_of(const ExportedTexturedNumber& number, float given);
 /// Whether it, or a texture placed by the second texture coordinates, needs ExportedMesh::channels.
 bool needs_channels(const ExportedObject& object);
 bool needs_channels(const ExportedScene& scene);
