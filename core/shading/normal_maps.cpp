@@ -77,7 +77,7 @@ struct BumpMapLoop {
     }
 };
 
-/// Like `heights`, of which it takes the red channel.
+/// In the layout of `heights`, whose red channel has the heights.
 MipMap::Texels slopes_of(const DecodedTexels& heights, const std::array<TextureWrap, 2>& wraps) {
     const auto neighbor = [](int x, int size, TextureWrap wrap) {
         return wrap == TextureWrap::repeat ? (x + size) % size : std::clamp(x, 0, size - 1);

@@ -33,7 +33,7 @@ enum class Term {
     face_normal,  // world space, unit, of the visible side
     barycentric,  // coordinates on the triangle
     uv,           // texture coordinates; zero on meshes that have none
-    opacity,      // the fraction of what is behind that it covers; 0 where there is no object
+    opacity,      // the fraction of the background that it covers; 0 where there is no object
     facing,       // 1, or -1 where an open surface is seen from behind; 0 where there is no object
     object,       // index among the scene's, from 0; -1 where there is none
     triangle      // index in the object's mesh; -1 where there is none

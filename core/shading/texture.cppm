@@ -58,7 +58,7 @@ class CANDELA_EXPORT MipMap {
     /// Red, green and blue, interleaved, 65535 for an intensity of 1.
     using Texels = AlignedVector<std::uint16_t>;
 
-    /// Room for a picture's texels, of which there are less than 2^31, with memory for its levels.
+    /// Zeros for a picture's texels, fewer than 2^31, with memory reserved for its levels.
     static Texels room_for(int width, int height);
 
     /// `texels` are those of the picture, rows from the top. Levels are made with the threads that
